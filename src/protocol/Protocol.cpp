@@ -19,7 +19,7 @@ namespace heft {
 namespace {
 constexpr Range display_rates_hz{1, 1000};
 constexpr Range physics_rates_hz{1, 100000};
-constexpr Range predictions_s{0, 0.2};  // beyond it no hand goes on as it did
+constexpr Range predictions_s{0, 0.2};  // longer predictions of a hand are useless
 constexpr Range onsets_s{0, 60};
 constexpr Range text_sizes{least_text_size, most_text_size};
 
@@ -43,14 +43,14 @@ void read_onset(TableReader& reader, Onset& onset) {
   });
 }
 
-// It is part of a file's name and of the log's keys, where a point parts it from what it asks.
+// The name is part of a file's name and of the log's keys, where a point follows it.
 bool is_plain_name(const std::string& name) {
   return !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
   });
 }
 
-// Asked twice of one block it would come once: its answers have one place in the log.
+// A questionnaire has one place in the log for its answers after a block.
 void read_asked(TableReader& table, ScreensChosen& screens) {
   std::string name, after;
   table.require({"name"});
@@ -63,21 +63,22 @@ void read_asked(TableReader& table, ScreensChosen& screens) {
                                       printable(name)));
   else if (std::ranges::count(there, name) > 0)
     table.mistake("name",
-                  fmt::format("\"{}\" is asked {} already, expected each questionnaire once there",
+                  fmt::format("\"{}\" is already asked {}, expected each questionnaire once there",
                               printable(name), after.empty() ? "at the end" : "after that block"));
   there.push_back(name);
 }
 
-// A misspelled block would mean a questionnaire that nobody is asked.
+// A misspelled block would silently drop the questionnaire.
 void check_asked(TableReader& reader, const Protocol& protocol) {
   std::set<std::string> blocks{""};
   for (const Block& block : protocol.blocks) blocks.insert(block_name(block));
   for (const auto& [after, names] : protocol.screens.questionnaires)
     if (!blocks.contains(after) && reader.good({"screens", "block"}))
-      reader.mistake("screens",
-                     fmt::format("a questionnaire comes after \"{}\", and no block is called so, "
-                                 "expected a block's name, or none for the end",
-                                 printable(after)));
+      reader.mistake(
+          "screens",
+          fmt::format("a questionnaire comes after \"{}\", but there is no block of that name, "
+                      "expected a block's name, or none for the end",
+                      printable(after)));
 }
 
 void read_screens(TableReader& reader, ScreensChosen& screens) {
@@ -93,7 +94,7 @@ void read_screens(TableReader& reader, ScreensChosen& screens) {
   });
 }
 
-// How many cubes the block with most of them shows.
+// The largest number of cubes in a block.
 int most_cubes(const std::vector<Block>& blocks) {
   int most = 2;
   for (const Block& block : blocks)

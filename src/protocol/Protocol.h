@@ -1,5 +1,5 @@
-// An experiment as data: what protocols/*.toml says, typed and checked. Every key's meaning, unit
-// and default is a comment in protocols/paper.toml.
+// An experiment as data: the content of a protocol file, typed and checked. protocols/paper.toml
+// documents every key with its meaning, unit and default.
 #pragma once
 
 #include <map>
@@ -16,36 +16,37 @@
 
 namespace heft {
 
-/// What becomes of a cube that leaves the area or falls: it goes back to its start once untouched,
-/// all cubes go back at once when the hand is clear of them (so that no jump tells which is the
-/// light one), or it stays.
+/// Treatment of a cube that leaves the area or falls: it is reset once untouched; all cubes are
+/// reset together when the hand is clear of them (so that no jump reveals the light one); or it
+/// stays.
 enum class OutOfArea { give_back, together, stay };
 template <>
 struct EnumNames<OutOfArea> {
   static constexpr std::array<std::string_view, 3> names{"return", "together", "stay"};
 };
 
-/// Whether `friction` is the coefficient between two surfaces, or each body's own as engines that
-/// multiply them take it (0.8 per body is 0.64 between two).
+/// Whether `friction` is the coefficient between two surfaces, or each body's, for engines that
+/// multiply them (0.8 per body is 0.64 between two).
 enum class FrictionIs { between_surfaces, per_body };
 template <>
 struct EnumNames<FrictionIs> {
   static constexpr std::array<std::string_view, 2> names{"between_surfaces", "per_body"};
 };
 
-/// Of ScreensChosen::text_size.
+/// Limits of ScreensChosen::text_size.
 inline constexpr double least_text_size = 0.75, most_text_size = 2;
 
-/// What a person's screens show besides the tasks.
+/// Settings of a participant's screens.
 struct ScreensChosen {
-  std::string language = "en";  ///< of protocols/texts/, unless the session's options say another
+  std::string language =
+      "en";  ///< of protocols/texts/, unless the session's options choose another
   bool consent = false;
   bool about_you = false;
   bool how_decided = false;
-  bool crop = true;      ///< the scene is shown as far as the cubes and the effector go
-  double text_size = 1;  ///< times as large as usual
-  bool patch = false;    ///< for a photodiode: another shade with each frame
-  /// Questionnaires by name, by the block that they come after; of the name "" at the end.
+  bool crop = true;      ///< the scene is cropped to the reach of cubes and effector
+  double text_size = 1;  ///< relative to the usual size
+  bool patch = false;    ///< for a photodiode: changes its shade with each frame
+  /// Names of questionnaires by the block that they follow; "" for the end.
   std::map<std::string, std::vector<std::string>> questionnaires = {};
 };
 
@@ -61,22 +62,22 @@ struct Layout {
   double row_y_m = 0;                  ///< of the cubes' centers
   double start_distance_m = 0.06;      ///< from the cubes' near faces to the resting effector's tip
   Eigen::Vector2d area_m{0.40, 0.30};  ///< width and depth, centered on the origin
-  /// Where nothing is said, what was done before there was a choice: older logs replay by it.
+  /// The default is the behavior before this key existed, for replaying older logs.
   OutOfArea out_of_area = OutOfArea::give_back;
-  double clear_m = 0.02;  ///< cubes appear when the effector is this far from every slot
+  double clear_m = 0.02;  ///< cubes appear once the effector is this far from every slot
 };
 
 struct Protocol : SessionPlan {
   std::string name;
-  std::string text;    ///< the file as read; kept in the log
+  std::string text;    ///< the file's contents; kept in the log
   std::string sha256;  ///< of text
   std::string title;
   double display_rate_hz = 15;
   double void_after_s = 5;  ///< a camera or board lost for longer voids the trial
   Onset onset;
   Eigen::Vector3d effector_size_m{0.09, 0.04, 0.04};
-  Coupling coupling;                  ///< of C2, and of techniques where they say nothing else
-  std::vector<Technique> techniques;  ///< declared; C1 and C2 are there without
+  Coupling coupling;                  ///< of C2, and defaults of declared techniques
+  std::vector<Technique> techniques;  ///< declared ones; C1 and C2 need no declaration
   double friction = 0.8;
   FrictionIs friction_is = FrictionIs::between_surfaces;
   double gravity_m_s2 = 9.81;
@@ -87,7 +88,7 @@ struct Protocol : SessionPlan {
   ExclusionRules exclusion;
 };
 
-/// The questionnaires that are asked at the end, after blocks, or of which trials ask a question.
+/// The questionnaires after blocks, at the end, and with questions in trials.
 std::set<std::string> questionnaires_of(const Protocol& protocol);
 
 /// Centers of n cubes in a row along x, leftmost first.
@@ -106,7 +107,7 @@ Scene scene_of(const Protocol& protocol, const std::string& technique,
 Protocol parse_protocol(const std::string& text, const std::string& file,
                         const std::vector<ProtocolSetting>& settings = {});
 
-/// @throws Error when the file can't be read, InvalidFile as parse_protocol
+/// @throws Error if the file cannot be read, InvalidFile as parse_protocol
 Protocol load_protocol(const std::string& path, const std::vector<ProtocolSetting>& settings = {});
 
 }  // namespace heft

@@ -20,7 +20,7 @@ namespace {
 struct Format {
   std::string_view ending;
   std::array<char, 4> codec;
-  cv::VideoCaptureAPIs writer;  // named, or OpenCV tries them all and each complains on stderr
+  cv::VideoCaptureAPIs writer;  // otherwise OpenCV tries all of them, with messages on stderr
 };
 
 constexpr std::array formats{Format{".mp4", {'m', 'p', '4', 'v'}, cv::CAP_FFMPEG},
@@ -30,7 +30,7 @@ const Format& format_of(const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension().string();
   for (const Format& format : formats)
     if (format.ending == ending) return format;
-  throw Error(fmt::format("can't tell how to write the video \"{}\": its name must end in .mp4 or "
+  throw Error(fmt::format("the video \"{}\" has no known format: its name must end in .mp4 or "
                           ".avi, as in video:session.mp4",
                           file),
               ExitCode::usage);
@@ -42,23 +42,23 @@ class VideoView final : public ArView {
     const auto& [ending, codec, writer] = format_of(setup.file);
     if (std::filesystem::exists(setup.file))
       throw Error(
-          fmt::format("{} exists already and would be written over; name another video, or "
+          fmt::format("{} already exists and would be overwritten; name another video, or "
                       "remove it first",
                       setup.file));
-    create_file(setup.file, 0600);  // people's hands may be in it
+    create_file(setup.file, 0600);  // may show people's hands
     const Image& first = drawing_.draw({});
     writer_ = codecs().writer(setup.file, writer, four_cc(codec), setup.rate_hz, first.width,
                               first.height);
     if (!writer_->isOpened())
       throw Error(
-          fmt::format("can't write the video {} ({} x {}, {:g} frames a second); check "
-                      "that its folder exists and may be written to",
+          fmt::format("cannot write the video {} ({} x {}, {:g} frames per second); check "
+                      "that its folder exists and is writable",
                       setup.file, first.width, first.height, setup.rate_hz));
   }
 
   std::optional<double> present(const ViewFrame& shown, const ScreenState&) override {
     const Image& drawn = drawing_.draw(shown);
-    // OpenCV has no read-only images; the writer changes nothing.
+    // OpenCV has no read-only images, but the writer does not change this one.
     writer_->write(cv::Mat(drawn.height, drawn.width, CV_8UC3,
                            const_cast<std::uint8_t*>(drawn.pixels.data())));
     return {};
@@ -68,7 +68,7 @@ class VideoView final : public ArView {
 
  private:
   SceneDrawing drawing_;
-  std::unique_ptr<cv::VideoWriter> writer_;  // finishes the file when it goes
+  std::unique_ptr<cv::VideoWriter> writer_;  // completes the file when destroyed
 };
 }  // namespace
 
@@ -77,7 +77,7 @@ std::unique_ptr<ArView> make_video_view(const ViewSetup& setup) {
 }
 
 namespace {
-// Shows nothing: for simulated responders and machines without a display.
+// Displays nothing: for simulated responders and machines without a display.
 class HeadlessView final : public ArView {
  public:
   explicit HeadlessView(const ViewSetup&) {}
@@ -94,10 +94,10 @@ std::unique_ptr<ArView> make_window(const ViewSetup& setup) {
 }
 
 constexpr std::array table{
-    ViewEntry{"headless", "shows nothing; for simulated responders", false, false, make_headless},
+    ViewEntry{"headless", "no display; for simulated responders", false, false, make_headless},
     ViewEntry{"window", "the participant's screen, for touch, mouse and keys", true, false,
               make_window},
-    ViewEntry{"video", "writes what would be seen into a video file: video:session.mp4", false,
+    ViewEntry{"video", "writes the displayed frames into a video file: video:session.mp4", false,
               true, make_video_view}};
 }  // namespace
 

@@ -1,5 +1,5 @@
-// The plug for what shows the session: a window, a video file, or nothing. A view draws what it is
-// given and reports what was touched; it decides nothing. One table, in ArView.cpp, names them all.
+// Views: a window, a video file, or none. A view draws frames and reports touches; it makes no
+// decisions. ArView.cpp has the table of all views.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,33 +18,35 @@
 
 namespace heft {
 
-/// One frame to show: the world as of its capture, over the camera picture that it belongs to.
+/// One frame to display: the world at its capture, over the camera picture.
 struct ViewFrame {
   DisplayedFrame frame;
   std::shared_ptr<const Image> camera;    ///< none: a plain table is drawn
-  std::optional<Pose> camera_from_board;  ///< none: where the camera was last, or the default
-  /// Of the camera picture, what is before all cubes: 255 wholly, one channel; none: nothing known.
+  std::optional<Pose> camera_from_board;  ///< none: the last viewpoint, or the default
+  /// What is in front of all cubes in the camera picture: 255 completely, one channel; none:
+  /// unknown.
   std::shared_ptr<const Image> in_front = {};
   std::optional<Pose> other_clone = {};  ///< of a what-if, in another color; none: not drawn
 };
 
-/// What a view needs to know before the first frame.
+/// Configuration of a view.
 struct ViewSetup {
   Stage stage;
-  std::optional<Intrinsics> camera;  ///< none: no camera pictures will come
+  std::optional<Intrinsics> camera;  ///< none: there are no camera pictures
   ScreenTexts texts;
-  bool left_handed = false;            ///< mirrors the controls, never the cubes
-  bool patch = false;                  ///< a photodiode's, which changes with each frame
-  double text_size = 1;                ///< times as large as usual
-  bool takes_keys = false;             ///< answers from the keyboard too
-  std::string file;                    ///< what follows the colon: "video:session.mp4"
-  double rate_hz = 15;                 ///< frames a second
+  bool left_handed = false;  ///< mirrors the controls, never the cubes
+  bool patch = false;        ///< draws a patch for a photodiode that changes with each frame
+  double text_size = 1;      ///< relative to the usual size
+  bool takes_keys = false;   ///< answers from the keyboard, too
+  std::string file;          ///< what follows the colon: "video:session.mp4"
+  double rate_hz = 15;       ///< frames per second
   Eigen::Vector2d area_m{0.40, 0.30};  ///< working area: width and depth around the board's center
-  /// What of the board frame a window shows; none: all of the picture.
+  /// The part of the board frame that a window shows; none: the whole picture.
   std::optional<Eigen::AlignedBox3d> shown_m = {};
-  int display = 0;                                ///< its number
-  bool windowed = false;                          ///< not full screen
-  std::shared_ptr<DraggedEffector> dragged = {};  ///< to be dragged in trials; none: it is held
+  int display = 0;        ///< its number
+  bool windowed = false;  ///< not full screen
+  std::shared_ptr<DraggedEffector> dragged =
+      {};  ///< to be dragged in trials; none: the effector is real or simulated
 };
 
 class ArView {
@@ -52,19 +54,19 @@ class ArView {
   virtual ~ArView() = default;
 
   /// Presents one frame and the screen around it.
-  /// @return monotonic time (base/Clock.h) at which it was presented; none: there is no display
+  /// @return monotonic time (base/Clock.h) of its presentation; none: there is no display
   virtual std::optional<double> present(const ViewFrame& shown, const ScreenState& screen) = 0;
 
-  /// Keeps the screen alive for up to `seconds` and returns early with what was touched since the
-  /// last call, in order. A view without a screen returns nothing at once.
+  /// Keeps the screen responsive for up to `seconds`; returns early with the touches since the last
+  /// call, in order. A view without a screen returns immediately.
   virtual std::vector<Touch> wait(double seconds) = 0;
 
-  /// Where it is shown; none: on no display.
+  /// The display of the view; none: no display.
   virtual std::optional<DisplayFacts> display() const { return std::nullopt; }
   /// Whether the window fills the display; none: there is no window.
   virtual std::optional<bool> is_full_screen() const { return std::nullopt; }
-  /// Pixels of the display from the middle of the effector to its clone's, in the frame presented
-  /// last; none: not both were shown.
+  /// Distance in pixels from the middle of the effector to its clone's, in the last presented
+  /// frame; none: not both were visible.
   virtual std::optional<double> clone_offset_px() const { return std::nullopt; }
 };
 
@@ -72,20 +74,20 @@ class ArView {
 struct ViewEntry {
   std::string_view name;
   std::string_view summary;
-  bool has_screen;  ///< people can look at it and touch it; the session then runs on a wall clock
+  bool has_screen;  ///< can be seen and touched; the session then runs on a wall clock
   bool has_file;    ///< NAME:FILE
-  /// @throws Error (device_missing) when there is no display
+  /// @throws Error (device_missing) if there is no display
   std::unique_ptr<ArView> (*make)(const ViewSetup& setup);
 };
 
 std::span<const ViewEntry> views();
 
-/// @throws Error (usage) naming the nearest view when there is none of that name
+/// @throws Error (usage) suggesting the most similar view if there is none of that name
 const ViewEntry& view_named(std::string_view name);
 
-/// setup.file names the video: .mp4 (MPEG-4) or .avi (Motion JPEG, which stays readable however the
-/// program ends). It plays at setup.rate_hz and is complete once the view is gone.
-/// @throws Error for another ending, a file that exists already, or one that can't be written
+/// setup.file names the video: .mp4 (MPEG-4) or .avi (Motion JPEG, which remains readable after a
+/// crash). It plays at setup.rate_hz and is complete once the view is destroyed.
+/// @throws Error for another extension, an existing file, or one that cannot be written
 std::unique_ptr<ArView> make_video_view(const ViewSetup& setup);
 
 }  // namespace heft

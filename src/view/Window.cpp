@@ -6,7 +6,7 @@ namespace heft {
 
 const WindowModule& window_module() {
   static const auto& module = *static_cast<const WindowModule*>(
-      from_module("heft-window.so", "heft_window", "asks for displays and shows windows"));
+      from_module("heft-window.so", "heft_window", "finds displays and shows windows"));
   return module;
 }
 

@@ -1,6 +1,6 @@
-// The participant's display, from outside: all that asks the window system for anything is in the
-// room `window`. SDL brings some forty shared libraries along, which only people's sessions need;
-// so that room is a module by itself, loaded by whoever asks first.
+// Interface of the folder `window`, the only one that uses the window system. SDL needs some forty
+// shared libraries, which only sessions with a window use, so that the folder is a module loaded on
+// first use.
 #pragma once
 
 #include <functional>
@@ -16,43 +16,43 @@
 
 namespace heft {
 
-/// A bank card, which is as large everywhere (ISO/IEC 7810 ID-1).
+/// A bank card, a common object of standardized size (ISO/IEC 7810 ID-1).
 inline constexpr double card_w_mm = 85.60, card_h_mm = 53.98;
 
 struct MeasuredCard {
   DisplayFacts display;
-  double w_px = 0;  ///< the card's, on it
+  double w_px = 0;  ///< width of the card on the display
 };
 
-/// What the module has.
+/// Functions of the module.
 struct WindowModule {
-  /// @throws Error (device_missing) without a display, (invalid_file) when no installed font has a
-  /// character of the texts
+  /// @throws Error (device_missing) without a display, (invalid_file) if no installed font has a
+  ///   character of the texts
   std::unique_ptr<ArView> (*make)(const ViewSetup& setup);
 
   /// All displays by number; none: there is no desktop.
   std::vector<DisplayFacts> (*displays)();
 
-  /// Displays, what draws on them, the typeface for these texts, touch: a line each.
+  /// Checks displays, graphics, the typeface for these texts, and touch: one result each.
   std::vector<CheckResult> (*check_displays)(const ScreenTexts& texts);
 
-  /// Shows a rectangle, which is made as large as a bank card, below the words, full screen. The
-  /// wheel and the arrow keys change it by a pixel (with Shift ten), dragging the mouse makes it as
-  /// wide; Enter ends it, Escape without a result.
-  /// @throws Error (device_missing) when there is no such display
+  /// Shows a rectangle below the text, full screen, to be adjusted to the size of a bank card: by
+  /// the wheel and the arrow keys a pixel at a time (ten with Shift), by dragging the mouse. Enter
+  /// accepts, Escape returns no result.
+  /// @throws Error (device_missing) if that display is missing
   std::optional<MeasuredCard> (*measure_card)(int display, const std::string& how);
 
-  /// Opens a window for a few seconds, taps in it, and times each tap from the window system's
-  /// event until the frame that answers it is presented, on the way that a session's taps go. What
-  /// the touch screen takes before that event, and the panel after that frame, is not in it.
-  /// @param keep what is done with each tap before that frame, as a session puts it on disk
-  /// @return seconds, a tap each; those that the window did not take are not among them
+  /// Opens a window for a few seconds, taps in it, and measures the time from the window system's
+  /// event of each tap until the frame with its answer is presented, processed as in a session. The
+  /// delays of the touch screen before and of the panel after are not included.
+  /// @param keep called with each tap before that frame, as a session writes it to disk
+  /// @return seconds for each tap that the window received
   /// @throws Error as make
   std::vector<double> (*touch_delays_s)(const ScreenTexts& texts, const std::function<void()>& keep,
                                         int n_taps);
 };
 
-/// @throws Error naming the module and what is wrong with it, if it can't be loaded
+/// @throws Error naming the module and the reason if it cannot be loaded
 const WindowModule& window_module();
 
 }  // namespace heft

@@ -62,7 +62,7 @@ Wish handle(const SDL_Event& event, float scale, const Measures& window, Card& c
   }
 }
 
-// The words, as high up as the card may leave them uncovered.
+// The instructions, above the card.
 Page instructions(const std::string& how, const Typeface& typeface, const Measures& m) {
   Page page;
   const FittedText words =

@@ -11,7 +11,7 @@ namespace heft {
 
 namespace {
 constexpr const char* nobody_looks =
-    "none: people's sessions need a desktop (DISPLAY or WAYLAND_DISPLAY set)";
+    "none: sessions with a window need a desktop (DISPLAY or WAYLAND_DISPLAY set)";
 
 std::string described(const DisplayFacts& display) {
   const std::string refresh =
@@ -20,7 +20,7 @@ std::string described(const DisplayFacts& display) {
                      display.h_px, refresh);
 }
 
-// Text can be made without a display.
+// Does not need a display.
 CheckResult check_typeface(const ScreenTexts& texts) try {
   const Typeface typeface(texts);
   return {CheckVerdict::ok, "typeface", "has every character of the participant's texts"};
@@ -28,22 +28,21 @@ CheckResult check_typeface(const ScreenTexts& texts) try {
   return {CheckVerdict::failed, "typeface", error.what()};
 }
 
-// A window that nobody sees, for a moment.
+// Opens a hidden window for a moment.
 CheckResult check_graphics() try {
   const GlWindow window("Heft", {.hidden = true});
   const std::string renderer = window.renderer();
   const bool software = renderer.find("llvmpipe") != std::string::npos ||
                         renderer.find("softpipe") != std::string::npos;
   return {software ? CheckVerdict::warning : CheckVerdict::ok, "graphics",
-          software ? renderer + ", which draws without a graphics card: frames may come late"
-                   : renderer};
+          software ? renderer + ", without a graphics card: frames may be late" : renderer};
 } catch (const Error& error) {
   return {CheckVerdict::failed, "graphics", error.what()};
 }
 
 CheckResult check_touch() {
   const int n = touch_devices();
-  if (n == 0) return {CheckVerdict::ok, "touch", "no touch screen; a mouse does as well"};
+  if (n == 0) return {CheckVerdict::ok, "touch", "no touch screen; a mouse works, too"};
   return {CheckVerdict::ok, "touch", fmt::format("{} touch device{}", n, n > 1 ? "s" : "")};
 }
 }  // namespace

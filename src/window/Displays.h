@@ -1,23 +1,22 @@
-// The displays of this machine, and whether people's sessions could be shown on them.
+// The displays of this machine, and their suitability for sessions.
 #pragma once
 
 #include "view/Window.h"
 
 namespace heft {
 
-// As WindowModule says.
+// Functions of WindowModule:
 std::vector<DisplayFacts> displays();
 std::vector<CheckResult> check_displays(const ScreenTexts& texts);
 
-// A display is measured with a bank card, held against a rectangle that is made as large as it is.
+// Measures a display with a bank card, held against a rectangle that is adjusted to it.
 
-/// As WindowModule says.
+/// See WindowModule.
 std::optional<MeasuredCard> measure_card(int display, const std::string& how);
 
-// How long people wait for the answer to a touch, as far as that is known without looking at the
-// display itself.
+// Measures the time from a touch to its answer, as far as the computer can observe it.
 
-/// As WindowModule says.
+/// See WindowModule.
 std::vector<double> touch_delays_s(const ScreenTexts& texts, const std::function<void()>& keep,
                                    int n_taps);
 

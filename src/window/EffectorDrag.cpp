@@ -7,9 +7,9 @@
 namespace heft {
 
 namespace {
-// Fingers are broader than its edge: this far beside it still means it.
+// A finger this far beside the effector still takes it.
 constexpr double around_m = 0.01;
-constexpr double turn_rad = 5 * std::numbers::pi / 180;  // a notch of the wheel
+constexpr double turn_rad = 5 * std::numbers::pi / 180;  // per notch of the wheel
 }  // namespace
 
 EffectorDrag::EffectorDrag(const ViewSetup& setup)

@@ -1,5 +1,5 @@
-// An effector that a finger or the mouse drags over the table: where it is taken, how it follows,
-// how it is turned. It keeps its height; the pointer is where its ray meets that.
+// The dragged effector: taken by a finger or the mouse, moved over the table at constant height,
+// and turned. The pointer's position is where its ray meets that height.
 #pragma once
 
 #include <memory>
@@ -13,27 +13,27 @@ namespace heft {
 
 class EffectorDrag {
  public:
-  /// @param setup whose effector there is
+  /// @param setup with the effector
   explicit EffectorDrag(const ViewSetup& setup);
 
-  /// The height that pointers are to be told at.
+  /// Height at which pointers are projected.
   double height_m() const { return effector_->pose.position_m.z(); }
 
-  /// Whether a pointer there is over it. @param at_m board frame, at height_m()
+  /// Whether a point is over the effector. @param at_m board frame, at height_m()
   bool is_at(const Eigen::Vector3d& at_m) const;
 
-  /// The pointer has it from now on, if it is over it and no other pointer has it.
+  /// Takes the effector if the pointer is over it and no other pointer has it.
   void take(Taps::Pointer pointer, const Eigen::Vector3d& at_m);
-  /// It goes where the pointer that has it goes, as far as its working area reaches.
+  /// Moves the effector with the pointer that has it, within the working area.
   void move(Taps::Pointer pointer, const Eigen::Vector3d& at_m);
   void let_go(Taps::Pointer pointer);
   void let_go() { holder_.reset(); }
   bool is_held_by(Taps::Pointer pointer) const { return holder_ == pointer; }
 
-  /// Turns it about the vertical, counterclockwise as seen from above.
+  /// Turns it about the vertical axis, counterclockwise as seen from above.
   void turn(double notches);
 
-  /// It was taken once: whoever did knows how.
+  /// Whether it was ever taken, after which no hint is needed.
   bool was_taken() const { return was_taken_; }
 
  private:

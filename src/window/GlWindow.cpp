@@ -21,24 +21,24 @@ namespace {
 constexpr int windowed_width_px = 1024, windowed_height_px = 600;
 
 Error no_display(const char* what) {
-  return Error(fmt::format("can't open the participant's window: {}: {}; start Heft on a desktop "
+  return Error(fmt::format("cannot open the participant's window: {}: {}; start Heft on a desktop "
                            "with a display (DISPLAY or WAYLAND_DISPLAY set), or choose another "
                            "view with --view",
                            what, SDL_GetError()),
                ExitCode::device_missing);
 }
 
-// Xlib ends the program when the display's connection breaks, whatever this returns; so at least
-// the person hears what happened. Every answer is in the log before the screen changes.
+// Xlib ends the program when the display's connection breaks, whatever this returns, so that only a
+// message is possible. Every answer is logged before the screen changes.
 int on_lost_display(void*) {
   std::fputs(
       "error: the display was closed or its connection broke; answers given so far are "
-      "saved, go on with: heft resume\n",
+      "saved, continue with: heft resume\n",
       stderr);
   std::_Exit(static_cast<int>(ExitCode::device_missing));
 }
 
-// SDL loads Xlib by itself, if at all; so its function is looked up, not linked.
+// SDL loads Xlib at run time, so that the function is looked up instead of linked.
 void explain_lost_display() {
   using Handler = int (*)(void*);
   using SetHandler = Handler (*)(Handler);
@@ -50,16 +50,17 @@ void explain_lost_display() {
     reinterpret_cast<SetHandler>(function)(on_lost_display);
 }
 
-// Without a display SDL draws into memory, which is fine for who asked for it by name.
-bool nobody_can_look() {
+// Without a display SDL draws into memory, which is only accepted if its driver was requested by
+// name.
+bool draws_into_memory() {
   const std::string_view driver = SDL_GetCurrentVideoDriver();
   return (driver == "offscreen" || driver == "dummy") && !SDL_getenv("SDL_VIDEODRIVER");
 }
 
 void set_hints() {
-  SDL_SetHint(SDL_HINT_TOUCH_MOUSE_EVENTS, "0");  // or taps count twice
+  SDL_SetHint(SDL_HINT_TOUCH_MOUSE_EVENTS, "0");  // otherwise taps count twice
   SDL_SetHint(SDL_HINT_MOUSE_TOUCH_EVENTS, "0");
-  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl-C is the session's to handle
+  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the session handles Ctrl-C
   SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "0");
   SDL_SetHint(SDL_HINT_VIDEO_MINIMIZE_ON_FOCUS_LOSS, "0");
   SDL_GL_SetAttribute(SDL_GL_DOUBLEBUFFER, 1);
@@ -89,8 +90,8 @@ void require_display(int number) {
               ExitCode::device_missing);
 }
 
-// Of the display's size from the start: where no window manager runs, as on a bare touch display,
-// nobody would enlarge a smaller window to full screen.
+// Of the display's size from the start: without a window manager, as on a bare touch display, a
+// smaller window would not be enlarged to full screen.
 SDL_Window* window_on(const WindowChoice& choice, const char* title) {
   require_display(choice.display);
   SDL_Rect place{};
@@ -113,7 +114,7 @@ struct GlWindow::Video {
   Video() {
     set_hints();
     if (SDL_InitSubSystem(SDL_INIT_VIDEO | SDL_INIT_EVENTS) != 0) throw no_display("no display");
-    if (nobody_can_look()) {
+    if (draws_into_memory()) {
       SDL_SetError("neither X nor Wayland is running");
       SDL_QuitSubSystem(SDL_INIT_VIDEO | SDL_INIT_EVENTS);
       throw no_display("no display");
@@ -127,7 +128,7 @@ struct GlWindow::Video {
 struct GlWindow::Graphics {
   explicit Graphics(SDL_Window* window) : context(SDL_GL_CreateContext(window)) {
     if (!context) throw no_display("no OpenGL 3");
-    SDL_GL_SetSwapInterval(1);  // may be refused: the session paces its frames by itself
+    SDL_GL_SetSwapInterval(1);  // may be refused: the session paces its frames
     glGenTextures(1, &texture);
     painter = ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
@@ -170,7 +171,7 @@ bool GlWindow::is_full_screen() const {
   return (SDL_GetWindowFlags(window_.get()) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
 }
 
-// Its mode is told in the window system's units.
+// The display's mode is in the window system's units.
 DisplayFacts GlWindow::display() const {
   DisplayFacts facts = facts_of(std::max(0, SDL_GetWindowDisplayIndex(window_.get())));
   facts.scale = static_cast<double>(scale());
@@ -191,7 +192,7 @@ int touch_devices() {
 std::vector<DisplayFacts> displays() {
   std::vector<DisplayFacts> all;
   if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return all;
-  for (int i = 0; i < SDL_GetNumVideoDisplays() && !nobody_can_look(); ++i)
+  for (int i = 0; i < SDL_GetNumVideoDisplays() && !draws_into_memory(); ++i)
     all.push_back(facts_of(i));
   SDL_QuitSubSystem(SDL_INIT_VIDEO);
   return all;

@@ -1,6 +1,5 @@
 // The window on the display: SDL's window with an OpenGL context, one texture for the scene's
-// frame, and Dear ImGui's draw list to paint with. What is painted, and what events mean, is for
-// WindowView.
+// frame, and Dear ImGui's draw list. WindowView decides what is painted and what events mean.
 #pragma once
 
 #include <SDL.h>
@@ -16,56 +15,55 @@ struct ImDrawList;
 
 namespace heft {
 
-/// Fingers can touch so many devices.
+/// Number of touch devices.
 int touch_devices();
 
 struct WindowChoice {
   int display = 0;
   bool windowed = false;
-  bool hidden = false;  ///< to see whether one can be had
+  bool hidden = false;  ///< to test whether a window is possible
 };
 
 class GlWindow {
  public:
-  /// @throws Error (device_missing) saying what to do when there is no such display, or none that
-  ///   can draw
+  /// @throws Error (device_missing) with advice if that display is missing, or none can draw
   GlWindow(const char* title, const WindowChoice& choice);
   ~GlWindow();
   GlWindow(const GlWindow&) = delete;
   GlWindow& operator=(const GlWindow&) = delete;
 
-  /// In pixels, which can be more than the window system's units.
+  /// In pixels, which may be smaller than the window system's units.
   Measures measures() const;
-  /// Pixels a unit of the window system.
+  /// Pixels per unit of the window system.
   float scale() const;
   void toggle_full_screen();
   bool is_full_screen() const;
-  /// The display that it is on now.
+  /// The current display.
   DisplayFacts display() const;
-  /// What draws, as the driver calls it.
+  /// The graphics driver's name.
   std::string renderer() const;
 
-  /// Makes the frame's pixels (blue, green, red) the texture.
+  /// Uploads the frame's pixels (blue, green, red) to the texture.
   void upload(const Image& frame);
   unsigned texture() const;
 
-  /// Begins a frame, to be painted on the list that it gives.
-  /// @throws Error (device_missing) when the graphics are lost and can't be had again
+  /// Begins a frame and returns its draw list.
+  /// @throws Error (device_missing) if the graphics context is lost and cannot be restored
   ImDrawList& begin_frame();
-  /// For what is written in this frame.
+  /// Textures of the texts in this frame.
   WrittenTextures& written();
-  /// Shows what was painted. Returns once the display has it, as far as the driver tells.
+  /// Presents the frame. Returns once the display has it, as far as the driver reports.
   void end_frame();
 
  private:
-  struct Video;     // SDL's video part, while there is a window
-  struct Graphics;  // all that is lost with the OpenGL context
+  struct Video;     // SDL's video subsystem
+  struct Graphics;  // everything that is lost with the OpenGL context
   void renew_graphics();
 
   std::unique_ptr<Video> video_;
   std::unique_ptr<SDL_Window, void (*)(SDL_Window*)> window_;
   std::unique_ptr<Graphics> graphics_;
-  Image last_frame_;  ///< to upload again when the graphics were lost
+  Image last_frame_;  ///< uploaded again if the graphics context was lost
 };
 
 }  // namespace heft

@@ -37,7 +37,7 @@ ImTextureID drawable(unsigned texture) {
   return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture));
 }
 
-// On whole pixels, or the letters would blur.
+// On whole pixels, so that letters are not blurred.
 void write(ImDrawList& list, const Paint& paint, const std::string& text, float x, float y,
            float size_px, ImU32 color) {
   const WrittenTexture& ink =
@@ -53,7 +53,7 @@ void write(ImDrawList& list, const Paint& paint, const std::string& text, float 
 void write_centered(ImDrawList& list, const Paint& paint, const FittedText& text, const Rect& area,
                     ImU32 color) {
   const float line_px = Typeface::line_height_px(text.size_px);
-  // A line's letters stand at the top of its height.
+  // Letters are at the top of their line.
   const float height_px = line_px * static_cast<float>(text.lines.size() - 1) + text.size_px;
   float y = area.y + (area.height - height_px) / 2;
   for (const std::string& line : text.lines) {
@@ -82,7 +82,7 @@ void paint_words(ImDrawList& list, const Control& control, const Paint& paint, I
     write_centered(list, paint, words.note, words.note_area, colors::accent);
 }
 
-// A line from end to end, and a bar where it is set.
+// A line from end to end, and a bar at the value.
 void paint_slider(ImDrawList& list, const Rect& area, const SliderValue& slid, float target) {
   const float thick = 0.06f * target, inset = 0.12f * target;
   const float left = area.x + inset, right = area.right() - inset, y = area.y + area.height / 2;
@@ -110,8 +110,8 @@ void paint_scene(ImDrawList& list, const PaintedScene& scene) {
                 corner(scene.part), opposite_corner(scene.part), IM_COL32(255, 255, 255, alpha));
 }
 
-// A flag with a label, its tip at the cube; only the tip where no label is given yet. Higher where
-// another flag is in its way.
+// A flag with a label, its tip at the cube; only the tip without a label. Raised if another flag is
+// in the way.
 void paint_mark(ImDrawList& list, const PlacedMark& placed, const Paint& paint,
                 std::vector<Rect>& flags) {
   const ImU32 fill = placed.mark.selected ? colors::accent : colors::flag;
@@ -173,7 +173,7 @@ Rect rect_of(const Eigen::AlignedBox2d& box) {
   return {from.x(), from.y(), size.x(), size.y()};
 }
 
-// Begins earlier and ends later, as far as 0 and the limit allow.
+// Extends an interval at both ends, within 0 and the limit.
 void widen(float& begin, float& length, float wanted, float limit) {
   wanted = std::min(wanted, limit);
   if (wanted <= length) return;
@@ -190,7 +190,8 @@ const Image& SceneOnScreen::draw(const ViewFrame& shown) {
   return image;
 }
 
-// A camera's place is measured anew in each picture, a little differently: what is shown stays.
+// The camera's pose is measured in each picture with noise; the displayed part of the frame is
+// kept.
 void SceneOnScreen::find_part() {
   constexpr float still_px = 12;
   const Rect whole{0, 0, static_cast<float>(width_px_), static_cast<float>(height_px_)};
@@ -201,7 +202,7 @@ void SceneOnScreen::find_part() {
   if (moved > still_px) wanted_px_ = found;
 }
 
-// Room that is left is filled with more of the frame.
+// Fills remaining space with more of the frame.
 void SceneOnScreen::fill_room(const Rect& room) {
   part_px_ = wanted_px_;
   const float ratio = room.width / room.height;

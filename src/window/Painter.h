@@ -1,6 +1,6 @@
-// The look of the participant's screens: paints a page. Calm and of high contrast, dark around the
-// scene, one accent color for what leads on. And where the scene's frame is on it, which takes
-// places between pixels of the window and pixels of the frame, and says which cube a finger means.
+// Paints the participant's screens: calm and of high contrast, dark around the scene, one accent
+// color for the button that continues. Also places the scene's frame, converts between pixels of
+// the window and of the frame, and finds the cube under a finger.
 #pragma once
 
 #include <functional>
@@ -21,17 +21,17 @@ namespace heft {
 struct PaintedScene {
   unsigned texture = 0;
   Rect area;
-  Rect part{0, 0, 1, 1};  ///< of the frame that is shown, as fractions of it
+  Rect part{0, 0, 1, 1};  ///< displayed part of the frame, as fractions of it
   float opacity = 1;
 };
 
-/// A mark at its place on the screen: the tip of a small flag above a cube.
+/// A mark on the screen: the tip of a small flag above a cube.
 struct PlacedMark {
   CubeMark mark;
   float x = 0, y = 0;
 };
 
-/// What a page is painted with besides itself.
+/// What a page is painted with.
 struct Paint {
   const Typeface& typeface;
   const Measures& measures;
@@ -44,29 +44,30 @@ struct Paint {
 
 void paint_page(ImDrawList& list, const Page& page, const Paint& paint);
 
-/// The largest place inside `room`, centered, for a picture of that size.
+/// The largest area inside `room`, centered, with the aspect ratio of width and height.
 Rect fitted_scene(const Rect& room, float width, float height);
 
 class SceneOnScreen {
  public:
   explicit SceneOnScreen(const ViewSetup& setup) : drawing_(setup), shown_m_(setup.shown_m) {}
 
-  /// As SceneDrawing::draw.
+  /// See SceneDrawing::draw.
   const Image& draw(const ViewFrame& shown);
 
-  /// Where the page has room for it; none: this page has none.
+  /// Sets the page's area for the scene; none: no scene.
   void place(const std::optional<Rect>& room);
-  /// Where it is; none: on no page, or nothing is drawn yet.
+  /// The scene's area; none: no scene, or nothing was drawn yet.
   const std::optional<Rect>& area() const { return area_; }
-  /// What of the frame it shows, as fractions of the frame.
+  /// The displayed part, as fractions of the frame.
   Rect part() const;
 
-  /// The cube at a pixel of the window, or else the only one within reach of it.
+  /// The cube at a pixel of the window, else the only one within reach of it.
   std::optional<int> slot_near(float x, float y, float reach_px) const;
   /// The point at that height over the table that is seen at a pixel of the window, or at the
-  /// scene's pixel next to it.
+  /// nearest pixel of the scene.
   std::optional<Eigen::Vector3d> point_at_height(float x, float y, double height_m) const;
-  /// Pixels of the window between two points of the board frame; none: not both are seen.
+  /// Distance in pixels of the window between two points of the board frame; none: not both are
+  /// visible.
   std::optional<double> distance_px(const Eigen::Vector3d& a_m, const Eigen::Vector3d& b_m) const;
   /// The marks of cubes that are in the frame.
   std::vector<PlacedMark> placed(const std::vector<CubeMark>& marks) const;
@@ -81,7 +82,7 @@ class SceneOnScreen {
   SceneDrawing drawing_;
   std::optional<Eigen::AlignedBox3d> shown_m_;
   int width_px_ = 0, height_px_ = 0;  ///< of the frame
-  Rect wanted_px_, part_px_;          ///< of the frame, that has to be shown; that is
+  Rect wanted_px_, part_px_;          ///< parts of the frame: required; displayed
   std::optional<Rect> area_;
 };
 

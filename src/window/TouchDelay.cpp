@@ -12,10 +12,10 @@ namespace heft {
 namespace {
 constexpr const char* form = "taps";
 constexpr int n_buttons = 12;
-constexpr double period_s = 0.06;  // so that no button is tapped again before it has settled
+constexpr double period_s = 0.06;  // no button is tapped again before it has settled
 static_assert(n_buttons * period_s > settle_s);
 
-// A page of buttons that can be tapped one after the other.
+// Texts of a page with buttons to tap one after the other.
 ScreenTexts with_buttons(ScreenTexts texts) {
   FormQuestion question;
   question.key = "tap";
@@ -51,7 +51,7 @@ std::vector<double> touch_delays_s(const ScreenTexts& texts, const std::function
   ScreenState screen{.screen = Screen::questionnaire, .form = form, .form_prefix = "taps."};
   view.present({}, screen);
   view.wait(settle_s + period_s);
-  RandomStream phase(1, "taps");  // to the display's frames
+  RandomStream phase(1, "taps");  // relative to the display's frames
   std::vector<double> delays_s;
   for (int i = 0; i < n_taps; ++i) {
     const std::string value = std::to_string(1 + i % n_buttons);

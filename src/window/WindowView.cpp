@@ -11,11 +11,11 @@
 namespace heft {
 
 namespace {
-// Fingers are broader than a cube's edge: this far from a cube, in targets, still means it.
+// A finger this far from a cube, in targets, still touches it.
 constexpr float around = 0.35f;
 
 std::optional<char> key_of(const SDL_Keysym& key) {
-  // Digits by their place: on a French keyboard they need no shift here.
+  // Digits by their position: on a French keyboard they need no shift here.
   if (key.scancode >= SDL_SCANCODE_1 && key.scancode <= SDL_SCANCODE_9)
     return static_cast<char>('1' + (key.scancode - SDL_SCANCODE_1));
   if (key.scancode >= SDL_SCANCODE_KP_1 && key.scancode <= SDL_SCANCODE_KP_9)
@@ -59,7 +59,7 @@ Measures WindowView::measured() const {
   return {window.width, window.height, text_size_};
 }
 
-// The page for the window's size and the screens' memory as they are now.
+// Lays out the page for the current window size and state of the screens.
 void WindowView::lay_out() {
   measures_ = measured();
   const bool untried = drag_ && in_trial_ && !drag_->was_taken();
@@ -83,7 +83,7 @@ void WindowView::draw() {
   stale_ = false;
 }
 
-// Where a pointer that drags the effector is, at its height.
+// The dragging pointer's point at the effector's height.
 std::optional<Eigen::Vector3d> WindowView::dragged_to(float x, float y) const {
   return drag_ ? scene_.point_at_height(x, y, drag_->height_m()) : std::nullopt;
 }
@@ -95,7 +95,7 @@ bool WindowView::is_on_effector(float x, float y) const {
 }
 
 void WindowView::down(Taps::Pointer pointer, float x, float y, double t_s) {
-  if (is_on_effector(x, y)) {  // at any time: it answers nothing
+  if (is_on_effector(x, y)) {  // at any time: it is not an answer
     drag_->take(pointer, *dragged_to(x, y));
     lay_out();
   } else if (touched_.down(pointer, x, y, t_s)) {
@@ -151,7 +151,7 @@ void WindowView::handle(const SDL_Event& event) {
         lay_out();
       return;
     case SDL_WINDOWEVENT:
-      return lay_out();  // perhaps resized, perhaps uncovered
+      return lay_out();  // perhaps resized or uncovered
     case SDL_QUIT:
       return touched_.report(touch_of(TouchKind::close), t_s);
   }
@@ -162,9 +162,9 @@ void WindowView::handle_pending() {
 }
 
 std::optional<double> WindowView::present(const ViewFrame& shown, const ScreenState& screen) {
-  handle_pending();  // what was tapped so far was meant for the page before
+  handle_pending();  // earlier taps belong to the previous page
   show(shown, screen);
-  if (patch_) patch_->white = !patch_->white;  // what is drawn in between is the same frame
+  if (patch_) patch_->white = !patch_->white;  // repetitions in between show the same frame
   draw();
   const double presented_s = monotonic_s();
   SDL_PumpEvents();  // events get their times here

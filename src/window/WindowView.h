@@ -1,13 +1,13 @@
 // The participant's window: SDL2 and OpenGL, full screen, for touch at arm's length. Fingers and
-// mouse are equal: a tap is going down and up on the same control, or on the same cube in the
-// scene, which is as good as its button; when it counts: TouchScreen.h. Targets' sizes: Measures.h.
-// F11 changes between full screen and a window. An effector that is to be dragged goes with the
-// finger or mouse that went down on it; the wheel turns it.
+// mouse are equivalent: a tap is going down and up on the same control, or on the same cube in the
+// scene, which acts as its button. For when it counts see TouchScreen.h, for targets' sizes Page.h.
+// F11 toggles full screen. A dragged effector follows the finger or mouse that went down on it; the
+// wheel turns it.
 //
-// Keyboard, where it is asked for (whoever types elsewhere must not answer): 1...9 a cube or a
-// form's choice; L, I, H lightest, intermediate, heaviest (whatever the language); Enter goes on,
-// agrees, validates; D "I don't know"; N "No difference", "I do not agree"; Backspace puts the
-// cubes back, or goes back in a form or a text.
+// Keyboard, if enabled (other people's typing must not answer): 1...9 a cube or a form's choice; L,
+// I, H lightest, intermediate, heaviest (in every language); Enter continues, agrees, validates; D
+// "I don't know"; N "No difference", "I do not agree"; Backspace puts the cubes back, or goes back
+// in a form or a text.
 #pragma once
 
 #include <memory>
@@ -25,8 +25,8 @@ namespace heft {
 
 class WindowView final : public ArView {
  public:
-  /// @throws Error (device_missing) without a display, (invalid_file) when no installed font has a
-  /// character of the texts
+  /// @throws Error (device_missing) without a display, (invalid_file) if no installed font has a
+  ///   character of the texts
   explicit WindowView(const ViewSetup& setup);
 
   std::optional<double> present(const ViewFrame& shown, const ScreenState& screen) override;
@@ -36,11 +36,11 @@ class WindowView final : public ArView {
   std::optional<double> clone_offset_px() const override { return clone_offset_px_; }
 
   const Measures& measures() const { return measures_; }
-  /// The controls as last shown, in pixels of the window: for tests, and for scripts that tap.
+  /// The displayed controls, in pixels of the window, for tests and scripts that tap.
   const std::vector<Control>& controls() const { return touched_.page().controls; }
-  /// Whether a finger that goes down there takes the effector, to drag it.
+  /// Whether a finger that goes down there takes the effector.
   bool is_on_effector(float x, float y) const;
-  /// As TouchScreen::target_at.
+  /// See TouchScreen::target_at.
   std::optional<std::string> target_at(float x, float y) const { return touched_.target_at(x, y); }
 
  private:
@@ -62,11 +62,11 @@ class WindowView final : public ArView {
   std::optional<Patch> patch_;
   Measures measures_;
   Typeface typeface_;
-  std::optional<EffectorDrag> drag_;  ///< none: the effector is held, or a model's
+  std::optional<EffectorDrag> drag_;  ///< none: the effector is not dragged
   bool in_trial_ = false;
   std::optional<double> clone_offset_px_;
-  double sdl_start_s_;  ///< SDL counts events' times from there, in milliseconds of the same clock
-  bool stale_ = false;  ///< what is on the display is not the page as it is now
+  double sdl_start_s_;  ///< start of SDL's event times, which are in milliseconds of the same clock
+  bool stale_ = false;  ///< the page has changed since it was presented
 };
 
 }  // namespace heft

@@ -1,5 +1,5 @@
-// Lines of text as textures of an OpenGL context: made when they are first drawn, gone when a frame
-// goes without them.
+// Lines of text as textures of an OpenGL context: made when first drawn, deleted after a frame
+// without them.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// heft-window.so: this room for whoever goes by view/Window.h.
+// heft-window.so, loaded by view/Window.h.
 #include "view/Window.h"
 #include "window/Displays.h"
 #include "window/WindowView.h"

@@ -38,7 +38,7 @@ TEST(EffectorVerdict, AdvisesToTurnItWhereOneFaceIsMostlyAlone) {
   const CheckResult result = effector_verdict(seen_with_faces(0, 49, 1));
   EXPECT_EQ(result.verdict, CheckVerdict::ok);
   EXPECT_THAT(result.finding, HasSubstr("two faces or more in 2 %"));
-  EXPECT_THAT(result.finding, HasSubstr("turn the effector a little about its long axis"));
+  EXPECT_THAT(result.finding, HasSubstr("turn the effector slightly about its axis"));
 }
 
 TEST(EffectorVerdict, WarnsOfAnEffectorThatIsOftenLost) {
@@ -56,13 +56,13 @@ TEST(ToneVerdict, NamesACameraThatBends) {
   const CheckResult untold = tone_verdict(camera, bent);
   EXPECT_EQ(untold.verdict, CheckVerdict::warning);
   EXPECT_THAT(untold.finding, HasSubstr("the camera bends tones"));
-  EXPECT_THAT(untold.finding, HasSubstr("calibrate it once more"));
+  EXPECT_THAT(untold.finding, HasSubstr("calibrate again"));
   camera.response = std::array{0.6, 0.0, 0.0};
   const CheckResult told = tone_verdict(camera, bent);
   EXPECT_EQ(told.verdict, CheckVerdict::ok);
   EXPECT_THAT(told.finding, HasSubstr("the camera bends tones"));
   EXPECT_EQ(tone_verdict(camera, srgb).verdict, CheckVerdict::warning);
-  EXPECT_THAT(tone_verdict(camera, srgb).finding, HasSubstr("not as when it was calibrated"));
+  EXPECT_THAT(tone_verdict(camera, srgb).finding, HasSubstr("it differs from the calibration"));
 }
 
 TEST(BoardVerdict, SaysWhyItMayBeInNoPicture) {

@@ -158,15 +158,15 @@ TEST(Resolve, RefusesWhatCanNotWork) {
       {options_with(Plug{"scripted"}), "scripted:FOLDER"},
       {options_with(Plug{"coin", "none.toml"}), "none.toml"},
       {options_with(Plug{"coin"}, Plug{"hnd"}), "did you mean \"hand\"?"},
-      {options_with(Plug{"coin"}, Plug{"hand", "x"}), "takes nothing after it"},
-      {options_with(Plug{"coin"}, Plug{"camera"}), "needs to know which"},
+      {options_with(Plug{"coin"}, Plug{"hand", "x"}), "takes no argument"},
+      {options_with(Plug{"coin"}, Plug{"camera"}), "needs a source"},
       {options_with(Plug{"coin"}, Plug{"synthetic", "none.toml"}), "none.toml"},
       {options_with(Plug{"coin"}, {}, Plug{"windw"}), "did you mean \"window\"?"},
       {options_with(Plug{"coin"}, {}, Plug{"video"}), "video:FILE"},
-      {options_with(Plug{"coin"}, {}, Plug{"headless", "x"}), "takes nothing after it"},
+      {options_with(Plug{"coin"}, {}, Plug{"headless", "x"}), "takes no argument"},
       {recorded, "--record-camera"},
       {unknown_simulator, "did you mean \"boxes\"?"},
-      {straight, "straight strokes"},
+      {straight, "straight pushes"},
       {unknown_language, "\"fr\""},
       {uncalibrated, "--camera-file CAMERA.yaml"},
   };
@@ -191,9 +191,9 @@ TEST(Resolve, SaysWhichPlugsMayMeet) {
       for (const Plug& view : {Plug{"headless"}, Plug{"window"}, film}) {
         const bool person = std::holds_alternative<Person>(who);
         const bool dragged = std::string_view(tracker) == "mouse";
-        const char* why = dragged && !person                 ? "hand of its own"
+        const char* why = dragged && !person                 ? "moves it without a mouse"
                           : dragged && view.name != "window" ? "dragged in the window"
-                          : person && view.name != "window"  ? "can't see or touch"
+                          : person && view.name != "window"  ? "cannot see or touch"
                                                              : "";
         const std::string said = refusal(options_with(who, Plug{tracker}, view));
         SCOPED_TRACE(to_text(who) + " " + tracker + " " + view.name);

@@ -172,10 +172,10 @@ TEST_F(ScriptedTest, a_missing_trial_action_file_or_folder_is_named) {
     responder->begin_trial({2, 1, "sorting", fake::row_of(3)});
     FAIL();
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("has no trial 2: expected the file trial_2.csv"));
+    EXPECT_THAT(error.what(), HasSubstr("lacks trial 2: expected the file trial_2.csv"));
   }
   std::filesystem::remove_all(folder_);
-  EXPECT_THAT(refusal(), HasSubstr("can't read the recording " + folder_.string()));
+  EXPECT_THAT(refusal(), HasSubstr("cannot read the recording " + folder_.string()));
 }
 
 TEST_F(ScriptedTest, actions_that_the_task_does_not_offer_are_refused_at_their_line) {

@@ -295,9 +295,9 @@ TEST_F(FailedCheck, is_asked_about_and_the_session_begins_when_the_experimenter_
     EXPECT_EQ(status.screen.has_value(), !session.screen.screens.empty());
   };
   EXPECT_EQ(run(), RunEnd::finished);
-  EXPECT_THAT(console.asked, ElementsAre(HasSubstr("nothing was shown")));
+  EXPECT_THAT(console.asked, ElementsAre(HasSubstr("the participant has seen nothing")));
   EXPECT_THAT(console.said, Contains(HasSubstr("FAILED   board: not seen")));
-  EXPECT_THAT(notes(), ElementsAre("failed check: board; the experimenter goes on"));
+  EXPECT_THAT(notes(), ElementsAre("failed check: board; the experimenter continues"));
   EXPECT_LE(session.events(event_kind<Note>)[0].t_s, session.events(event_kind<TextShown>)[0].t_s);
 }
 
@@ -328,7 +328,7 @@ TEST_F(FailedCheck, is_gone_over_where_nobody_can_be_asked_and_that_was_asked_fo
   go_on_unchecked = true;
   EXPECT_EQ(run(), RunEnd::finished);
   EXPECT_THAT(notes(),
-              ElementsAre("failed check: board; nobody could be asked; the session goes on"));
+              ElementsAre("failed check: board; without an experimenter the session continues"));
 }
 
 TEST_F(FailedCheck, is_made_again_until_it_succeeds) {
@@ -388,7 +388,7 @@ TEST(Experimenter, takes_the_last_answer_back_and_its_trial_comes_again) {
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].as<AnswerVetoed>()->reason, "tapped by mistake");
   EXPECT_THAT(console.said, Contains(HasSubstr("presented again")));
-  EXPECT_THAT(console.said, Contains(HasSubstr("no trial was answered")));
+  EXPECT_THAT(console.said, Contains(HasSubstr("no answered trial")));
   EXPECT_EQ(session.engine.n_completed(), 3);
   EXPECT_EQ(session.engine.n_attempts(), 5) << "with the one that had begun, and the one again";
 }

@@ -217,7 +217,7 @@ TEST_F(Resumed, is_no_log_that_is_not_as_it_was_written) {
       ADD_FAILURE() << "it went on after " << sql;
     } catch (const Error& error) {
       EXPECT_EQ(error.exit_code(), ExitCode::diverged) << sql;
-      EXPECT_THAT(error.what(), HasSubstr("not as it was written")) << sql;
+      EXPECT_THAT(error.what(), HasSubstr("the log was changed")) << sql;
       if (std::string_view(sql).starts_with("CREATE")) {
         EXPECT_THAT(error.what(), HasSubstr("loot"));
       }

@@ -40,7 +40,7 @@ std::vector<TechniqueTrials> read_trials_by_technique(TableReader& table, NamesI
   return trials;
 }
 
-// trials = 10, c1_trials = 5: as it was written before techniques had names
+// trials = 10, c1_trials = 5: the form before techniques had names
 std::vector<TechniqueTrials> read_trials_of_two(TableReader& table) {
   int trials = 10, c1_trials = 5;
   table.require({"trials", "c1_trials"});
@@ -52,12 +52,12 @@ std::vector<TechniqueTrials> read_trials_of_two(TableReader& table) {
   return {{coupled_technique, c1_trials}, {spring_technique, trials - c1_trials}};
 }
 
-// paired = true: one staircase from `start`, one from `start_below`, otherwise alike.
+// paired = true: one staircase from `start`, another from `start_below`, otherwise equal.
 std::vector<StaircaseSettings> pair_of(TableReader& table, const StaircaseSettings& read,
                                        std::optional<double> start_below) {
   const auto* above = std::get_if<UpDownConfig>(&read.config);
   if (!above) {
-    table.mistake("paired", "paired is for up_down staircases, which have a start to pair");
+    table.mistake("paired", "paired requires up_down staircases, which have a start");
     return {};
   }
   UpDownConfig below = *above;
@@ -69,7 +69,7 @@ std::vector<StaircaseSettings> pair_of(TableReader& table, const StaircaseSettin
       (below.start >= above->start || (above->floor && below.start < *above->floor)))
     table.mistake(start_below ? "start_below" : "paired",
                   fmt::format("the staircase from below starts at {}, expected below the start {} "
-                              "and not below the floor: say start_below",
+                              "and not below the floor: set start_below",
                               below.start, above->start));
   return {{read.name + " from above", *above}, {read.name + " from below", below}};
 }
@@ -86,7 +86,7 @@ std::vector<ReferenceStaircase> read_reference_staircases(TableReader& table, Na
   table.read("start_below", start_below, zero_or_more);
   if (start_below && !paired)
     table.mistake("start_below",
-                  "start_below without paired = true, which makes a second "
+                  "start_below requires paired = true, which makes a second "
                   "staircase that starts there");
   const auto settings = read_staircase(table);
   if (!settings) return {};
@@ -101,7 +101,7 @@ std::vector<ReferenceStaircase> read_reference_staircases(TableReader& table, Na
   return staircases;
 }
 
-// catch_trials = { 15g = 10, 200g = 10 } by reference, or a number for all of them together.
+// catch_trials = { 15g = 10, 200g = 10 } by reference, or one number for all of them together.
 void read_catch_trials(TableReader& table, Comparison::Block& block) {
   std::vector<double> references_g;
   for (const ReferenceStaircase& entry : block.staircases)
@@ -131,7 +131,7 @@ void read_catch_trials(TableReader& table, Comparison::Block& block) {
 void read_catches(TableReader& table, Comparison::Block& block) {
   const bool has_number = table.has("catch_trials");
   if (table.has("catch_every") && !has_number)
-    table.mistake("catch_every", "catch_every without catch_trials, which it spreads");
+    table.mistake("catch_every", "catch_every requires catch_trials, which it spreads");
   table.read("catch_every", block.catch_every, {4, most_trials});
   read_catch_trials(table, block);
 }
@@ -235,7 +235,7 @@ const std::vector<BlockKind>& block_kinds() {
   return kinds;
 }
 
-// A misspelled kind is noted, and the block is checked as what it was most likely meant to be.
+// A misspelled kind is reported, and the block is checked as the most similar kind.
 std::optional<Block> read_block(TableReader& table, NamesInUse& names) {
   const std::span<const BlockKind> kinds(block_kinds());
   const auto name = table.read_nearest_name("kind", names_in(kinds));
@@ -246,7 +246,7 @@ std::optional<Block> read_block(TableReader& table, NamesInUse& names) {
   return block;
 }
 
-// A break parts two blocks: it is neither first nor last, and no other break is beside it.
+// A break separates two blocks: it is neither first nor last, nor next to another break.
 void check_breaks(std::vector<TableReader>& tables,
                   const std::vector<std::optional<Block>>& blocks) {
   const auto is_break = [&](std::size_t i) {
@@ -263,7 +263,7 @@ void check_breaks(std::vector<TableReader>& tables,
   }
 }
 
-// The place of each named block in the file; a break stays between the blocks that it parts.
+// Positions of the named blocks in the file; a break stays between its blocks.
 std::vector<std::size_t> places_of(TableReader& protocol, const std::vector<Block>& blocks,
                                    const std::vector<std::string>& order) {
   std::vector<std::size_t> places;
@@ -274,9 +274,9 @@ std::vector<std::size_t> places_of(TableReader& protocol, const std::vector<Bloc
       protocol.mistake("block_order", i, fmt::format("there is no block \"{}\"", order[i]));
     else if (std::holds_alternative<BreakBlock>(*found))
       protocol.mistake("block_order", i,
-                       fmt::format("\"{}\" is a break, which stays where it is", order[i]));
+                       fmt::format("\"{}\" is a break, which cannot be moved", order[i]));
     else if (std::ranges::count(places, place) > 0)
-      protocol.mistake("block_order", i, fmt::format("\"{}\" is there twice", order[i]));
+      protocol.mistake("block_order", i, fmt::format("\"{}\" is listed twice", order[i]));
     places.push_back(place);
   }
   return places;

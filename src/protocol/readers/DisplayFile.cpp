@@ -30,7 +30,7 @@ DisplayMeasures parse_display(const std::string& text, const std::string& file) 
 
 std::string to_toml(const DisplayMeasures& display) {
   return fmt::format(
-      "# A display, made by heft calibrate display: sessions take it with --display-file.\n"
+      "# A display, made by heft calibrate display: sessions use it with --display-file.\n"
       "width_px = {}\nheight_px = {}\nwidth_mm = {:.4g}\nheight_mm = {:.4g}\n"
       "eye_distance_mm = {:.4g}  # from the participant's eyes to the display\n",
       display.w_px, display.h_px, display.w_mm, display.h_mm, display.eye_distance_mm);

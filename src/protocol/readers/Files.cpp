@@ -1,4 +1,4 @@
-// Which kind of file a text is, and the kinds that take few lines to read.
+// Recognizes kinds of files, and reads the short ones.
 #include "protocol/readers/Files.h"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ namespace heft {
 namespace {
 constexpr Range exposures_s{0, 0.05};
 constexpr Range readouts_s{0, 0.05};
-constexpr Range blurs_px{0, 10};  // much more, and nothing is rendered in useful time
+constexpr Range blurs_px{0, 10};  // larger ones take too long to render
 constexpr Range gammas{1, 3};
 constexpr Range vignettings{0, 1, false, true};
 constexpr Range lights{0, 10, true};
@@ -32,9 +32,9 @@ constexpr Range noises{0, 100};
 constexpr Range shares{0, 1};
 constexpr Range sharpenings{0, 5};
 constexpr WholeRange jpeg_qualities{1, 100};
-constexpr Range scales{0.9, 1.1};  // of prints and lenses; more is another one
+constexpr Range scales{0.9, 1.1};  // of prints and lenses
 
-// None where the value is no finite number, truth value or text.
+// None unless the value is a finite number, truth value or text.
 std::optional<std::variant<double, bool, std::string>> value_of(const TomlNode& node) {
   if (const auto* boolean = std::get_if<bool>(&node.value)) return *boolean;
   if (const auto* text = std::get_if<std::string>(&node.value)) return *text;
@@ -47,12 +47,11 @@ std::optional<std::variant<double, bool, std::string>> value_of(const TomlNode& 
 
 struct KindKeys {
   FileKind kind;
-  std::string_view mark;  ///< a key that tells the kind by itself
+  std::string_view mark;  ///< a key that determines the kind
   std::vector<std::string_view> keys;
 };
 
-// A scene may have nothing but keys that a protocol has too, so it comes first; a board likewise
-// before the effector.
+// Scenes come first, because all their keys may occur in protocols, too; boards before effectors.
 const std::vector<KindKeys>& kinds_of_files() {
   static const std::vector<KindKeys> table{
       {FileKind::scene, "cube", {"clone", "friction", "gravity_m_s2", "coupling", "effector"}},

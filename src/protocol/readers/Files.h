@@ -1,5 +1,5 @@
-// The kinds of files that are no protocol: what reads each and what it says in words. A file is
-// read from its text; load_...() reads the text too.
+// Readers of all input files other than protocols, and their one-line descriptions. parse_...()
+// reads a text, load_...() a file.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct SessionPlan;
 struct ScreenTexts;
 struct SyntheticSettings;
 
-/// What kind of file a TOML text is, by the keys at its top level.
+/// Kind of a TOML file, recognized by its top-level keys.
 enum class FileKind {
   protocol,
   procedure,
@@ -40,91 +40,88 @@ struct EnumNames<FileKind> {
                                                           "display file",  "study plan"};
 };
 
-/// The kind whose tables the text has, or else most of whose keys.
-/// @throws InvalidFile when the text is no TOML, or has no key of any kind
+/// The kind whose tables the text has, else the kind with most of its keys.
+/// @throws InvalidFile if the text is not TOML, or has no key of any kind
 FileKind recognized_kind(const std::string& text, const std::string& file);
 
 // Below, text: a file's contents; file: its name, for messages.
 
-/// Procedures alone, for `heft procedure`; inside protocols they have the same keys.
+/// A procedure file, for `heft procedure`; protocols have the same keys.
 /// @throws InvalidFile with every mistake at its line and column
 InterleavedProcedures parse_procedure(const std::string& text, const std::string& file);
 
-/// @throws Error when the file can't be read, InvalidFile as parse_procedure
+/// @throws Error if the file cannot be read, InvalidFile as parse_procedure
 InterleavedProcedures load_procedure(const std::string& path);
 
-/// Physics alone, for `heft scene`.
+/// A scene file, for `heft scene`.
 /// @throws InvalidFile with every mistake at its line and column
 Scene parse_scene(const std::string& text, const std::string& file);
 
-/// @throws Error when the file can't be read, InvalidFile as parse_scene
+/// @throws Error if the file cannot be read, InvalidFile as parse_scene
 Scene load_scene(const std::string& path);
 
-/// Which printed tags are on a board, and where. Lengths in its file are as they were sent to the
-/// printer; `ruler_measured_m` says how long the sheet's 150 mm ruler came out, and everything is
-/// scaled by it.
+/// Positions of the tags on a printed board. Lengths in the file are as designed; everything is
+/// scaled by `ruler_measured_m`, the measured length of the sheet's 150 mm ruler.
 /// @throws InvalidFile with every mistake at its line and column
 MarkerBody parse_board(const std::string& text, const std::string& file);
 /// As parse_board; tags must face away from the effector's center.
 MarkerBody parse_effector(const std::string& text, const std::string& file);
 
-/// @throws Error when the file can't be read, InvalidFile as parse_board
+/// @throws Error if the file cannot be read, InvalidFile as parse_board
 MarkerBody load_board(const std::string& path);
 MarkerBody load_effector(const std::string& path);
 
-/// The board and the effector are told apart by their tags alone.
-/// @throws Error naming the tags that both have
+/// Board and effector are distinguished by their tags alone.
+/// @throws Error naming the tags of both
 void require_different_tags(const MarkerBody& board, const MarkerBody& effector);
 
 /// An effector file with a [[tag]] for each tag, which parse_effector reads back to 1e-9 m.
-/// @param comment put on top, may be empty
+/// @param comment first lines, may be empty
 std::string effector_to_toml(const MarkerBody& effector, const std::string& comment);
 
-/// What a body has, for people: "24 tags of tag36h11, 40 mm, ids 0-23, 280 x 184 mm".
+/// Description of a body: "24 tags of tag36h11, 40 mm, ids 0-23, 280 x 184 mm".
 std::string described(const MarkerBody& body);
 
-/// How a synthetic camera, its light and its files fall short of perfect ones; size, focal length
-/// and distortion are the calibration's. Absent keys are as
-/// protocols/apparatus/synthetic_camera.toml explains them.
+/// Imperfections of a synthetic camera, its light and its files; size, focal length and distortion
+/// are the calibration's. Defaults: see protocols/apparatus/synthetic_camera.toml.
 /// @throws InvalidFile with every mistake at its line and column
 SyntheticSettings parse_synthetic_camera(const std::string& text, const std::string& file);
 
-/// What the camera is like, for people: "exposure 4 ms, blur 0.6 px, noise 3 levels, sRGB", and
-/// what it has of the rest.
+/// Description of the camera: "exposure 4 ms, blur 0.6 px, noise 3 levels, sRGB", and other
+/// imperfections.
 std::string described(const SyntheticSettings& settings);
 
-/// Every word that a participant reads, in one language: its code and one table a page; which pages
-/// and keys there must be is listed once, in TextsFile.cpp and by the tasks (require_words). Line
-/// ends are LF, and spaces at a text's beginning and end are dropped.
+/// A participant's texts in one language: its code and one table per page. Required pages and keys
+/// are listed in TextsFile.cpp and by the tasks (require_words). Line ends are converted to LF, and
+/// spaces at both ends of a text are removed.
 /// @throws InvalidFile with every missing, unknown or empty page and key at its line and column
 ScreenTexts parse_texts(const std::string& text, const std::string& file);
 
-/// Questionnaires alone, [questionnaire.NAME] each, as they may also stand in a text file: such a
-/// file's text may be written below a text file's.
+/// Questionnaires only, one [questionnaire.NAME] each. They may also be part of a text file, so
+/// that such a file's text may be appended to a text file's.
 /// @throws InvalidFile with every mistake at its line and column
 ScreenTexts parse_questionnaires(const std::string& text, const std::string& file);
 
-/// A text file need not have the words of every task; a session needs those of its own.
-/// @param file that the texts are from, for the message
-/// @throws Error (invalid file) naming the words of the plan's tasks that are missing
+/// A text file may lack the texts of some tasks; a session needs those of its tasks.
+/// @param file with the texts, for the message
+/// @throws Error (invalid file) naming the missing texts of the plan's tasks
 void require_words(const ScreenTexts& texts, const SessionPlan& plan, const std::string& file);
 
-/// Gives blocks the questions that their trials ask, in the words of a session's texts.
-/// @param text of the session's text file, with its questionnaires; empty: it has none
+/// Adds the trials' questions from a session's texts to its blocks.
+/// @param text of the session's text file, with its questionnaires; empty: none
 /// @throws InvalidFile as parse_texts
 void take_questions(SessionPlan& plan, const std::string& text, const std::string& file);
 
-/// @throws Error when the file can't be read, InvalidFile as parse_texts
+/// @throws Error if the file cannot be read, InvalidFile as parse_texts
 ScreenTexts load_texts(const std::string& path);
 
-/// All that a page says, as the log keeps and hashes it: the language, then "key: text" for each
-/// key in alphabetical order, an empty line between two. The same words give the same bytes,
-/// wherever they stand in their file.
+/// All texts of a page, as logged and hashed: the language, then "key: text" for each key in
+/// alphabetical order, separated by empty lines. Independent of their order in the file.
 /// @throws std::out_of_range for an unknown page
 std::string page_text(const ScreenTexts& texts, const std::string& page);
 
-/// Flat `key = value` whose keys another room knows (a responder's parameters), in the file's
-/// order. Tables and arrays are refused.
+/// Flat `key = value` pairs whose keys another folder defines (a responder's parameters), in the
+/// file's order. Tables and arrays are refused.
 /// @throws InvalidFile with every mistake at its place
 std::vector<Parameter> parse_parameters(const std::string& text, const std::string& file);
 
@@ -132,7 +129,7 @@ std::vector<Parameter> parse_parameters(const std::string& text, const std::stri
 /// @throws InvalidFile with every mistake at its line and column
 DisplayMeasures parse_display(const std::string& text, const std::string& file);
 
-/// What parse_display reads.
+/// The contents of a file for parse_display.
 std::string to_toml(const DisplayMeasures& display);
 
 }  // namespace heft

@@ -30,11 +30,11 @@ void append(std::vector<Tag>& tags, const std::vector<PlacedTag>& placed) {
   for (const PlacedTag& one : placed) tags.push_back(one.tag);
 }
 
-// After the file is closed: a misspelled table is then already noted.
+// Called after the file was closed, when a misspelled table has been reported.
 void check_placed_once(TableReader& reader, const std::string& shorthand) {
   if (reader.has(shorthand) && reader.has("tag"))
-    reader.mistake("tag",
-                   fmt::format("the file has [{}] and [[tag]], expected one of them", shorthand));
+    reader.mistake(
+        "tag", fmt::format("the file has [{}] and [[tag]], expected only one of them", shorthand));
   else if (!reader.has(shorthand) && !reader.has("tag") && reader.good({shorthand, "tag"}))
     reader.mistake(shorthand,
                    fmt::format("the file places no tags, expected [{}] or [[tag]]", shorthand));
@@ -44,7 +44,7 @@ void read_common(TableReader& reader, MarkerBody& body) {
   if (const auto family = reader.read_name("family", tag_family_names())) body.family = *family;
 }
 
-// One length of the rulers, or of each its own: the one across the sheet, and the one down it.
+// One length for both rulers, or one each: across the sheet, and down it.
 void read_ruler(TableReader& reader, MarkerBody& body) {
   if (!reader.is_list("ruler_measured_m"))
     return reader.read("ruler_measured_m", body.measured_ruler_m, plausible_ruler_m);
@@ -54,7 +54,7 @@ void read_ruler(TableReader& reader, MarkerBody& body) {
   body.measured_across_m = both_m.y();
 }
 
-// The upper long edges may be cut off; something of the top and of the sides is left.
+// The upper long edges may be cut off as long as some of the top and of the sides remains.
 void read_chamfer(TableReader& reader, MarkerBody& body) {
   reader.read("chamfer_m", body.chamfer_m, zero_or_more);
   if (!reader.good({"size_m", "chamfer_m"})) return;
@@ -92,7 +92,7 @@ MarkerBody parse_effector(const std::string& text, const std::string& file) {
   const TomlTable root = parse_toml(text, file);
   TableReader reader(root, mistakes);
   MarkerBody effector;
-  effector.size_m.setConstant(1);  // where it is wrong, nothing else is blamed for it
+  effector.size_m.setConstant(1);  // after a mistake in it, no other is reported
   read_common(reader, effector);
   read_ruler(reader, effector);
   reader.require({"size_m"});

@@ -1,4 +1,4 @@
-// Marker bodies in words and as files.
+// Descriptions and files of marker bodies.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -20,7 +20,7 @@ std::vector<int> sorted_ids(const MarkerBody& body) {
   return ids;
 }
 
-// "0-23" where none is missing, else "0, 1, 5".
+// "0-23" without gaps, else "0, 1, 5".
 std::string ids_in_words(const std::vector<int>& ids) {
   const bool gapless = ids.back() - ids.front() + 1 == static_cast<int>(ids.size());
   if (gapless && ids.size() > 2) return fmt::format("{}-{}", ids.front(), ids.back());
@@ -39,7 +39,7 @@ std::string sides_in_words(const MarkerBody& body) {
   return from == to ? from + " mm" : fmt::format("{}-{} mm", from, to);
 }
 
-// How far the tags reach along each axis; an effector's own size.
+// The extent of the tags along each axis, or an effector's size.
 std::string extent_in_words(const MarkerBody& body) {
   Eigen::AlignedBox3d box;
   for (const Tag& tag : body.tags)

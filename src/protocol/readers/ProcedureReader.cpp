@@ -49,7 +49,7 @@ void UniqueNames::check(TableReader& table, const std::string& name) {
   if (!table.has("name") || !table.good({"name"})) return;
   const auto [first, is_new] = lines_.try_emplace(name, table.place().line);
   if (!is_new)
-    table.mistake("name", fmt::format("there is already a {} named \"{}\" (line {}), expected "
+    table.mistake("name", fmt::format("another {} is named \"{}\" (line {}), expected "
                                       "another name",
                                       what_, printable(name), first->second));
 }

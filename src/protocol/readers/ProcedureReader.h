@@ -1,5 +1,4 @@
-// The keys of a staircase of any kind and of interleaving, which procedure files and protocols
-// share.
+// The keys of staircases of any kind and of interleaving, common to procedure files and protocols.
 #pragma once
 
 #include <map>
@@ -12,32 +11,31 @@
 
 namespace heft {
 
-/// A staircase as its table has it, which may be one with mistakes.
+/// The settings of a staircase, perhaps with mistakes.
 struct StaircaseSettings {
   std::string name;
   ProcedureKinds::Any config;
 
-  /// Where the settings have mistakes, which the reader has noted, another one stands in.
+  /// A valid procedure; a default one if the settings have (reported) mistakes.
   Procedure procedure() const;
 };
 
-/// Reads name, kind and the kind's keys, closes the table and checks the settings; keys that only
-/// the caller knows must be read before. None where the kind is unknown: its keys are not looked
-/// at.
+/// Reads name, kind and the kind's keys, closes the table and checks the settings; keys of the
+/// caller must be read before. None for an unknown kind, whose keys are not checked.
 std::optional<StaircaseSettings> read_staircase(TableReader& table);
 
-/// Notes what makes the settings unfit for levels that are differences from a reference.
+/// Reports settings that do not suit levels that are differences from a reference.
 void check_beside(TableReader& table, const StaircaseSettings& settings, double reference_g);
 
 /// Reads `interleave` and `max_lag`.
 InterleaveConfig read_interleaving(TableReader& table);
 
-/// Holds the names of a kind of table to being different.
+/// Requires different names within a kind of table.
 class UniqueNames {
  public:
-  /// @param what how messages call the thing, e.g. "staircase"
+  /// @param what name of the kind in messages, e.g. "staircase"
   explicit UniqueNames(std::string what) : what_(std::move(what)) {}
-  /// Notes a mistake at the table's `name` where an earlier table has it.
+  /// Reports a mistake at the table's `name` if an earlier table has it.
   void check(TableReader& table, const std::string& name);
 
  private:

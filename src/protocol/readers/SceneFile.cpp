@@ -13,7 +13,8 @@
 namespace heft {
 
 namespace {
-constexpr double tolerance_m = 1e-6;  ///< rounding in a hand-written file, far below any contact
+constexpr double tolerance_m =
+    1e-6;  ///< rounding in a hand-written file, far below any contact distance
 
 struct PlacedCube {
   Cube cube;
@@ -81,8 +82,8 @@ Pose read_clone_offset(TableReader& reader) {
   return offset;
 }
 
-// [coupling] as the paper's technique has it, with `condition` to name another; or [[technique]]s
-// and which of them it is.
+// [coupling], the paper's technique by default, with `condition` for another; or [[technique]]s and
+// the selected one.
 void read_scene_technique(TableReader& reader, Scene& scene) {
   Coupling defaults;
   auto table = reader.table("coupling");

@@ -1,4 +1,4 @@
-// Effector, coupling and techniques, as protocols and scene files have them.
+// Effector, coupling and techniques in protocols and scene files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void TableReader::read(std::string_view key, MassCurve& field, const Range& valu
   for (const Eigen::Vector2d& row : rows) {
     if (!points.empty() && row.x() <= 1e3 * points.back().mass_kg)
       mistake(key, points.size(),
-              fmt::format("{} goes from {:g} to {:g} g, expected ascending masses", key,
+              fmt::format("{} changes from {:g} to {:g} g, expected ascending masses", key,
                           1e3 * points.back().mass_kg, row.x()));
     points.push_back({row.x() / 1e3, row.y()});
   }

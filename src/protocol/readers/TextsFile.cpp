@@ -16,8 +16,8 @@ namespace heft {
 
 namespace {
 struct PageKeys {
-  std::string_view page, keys;       ///< keys: parted by spaces
-  std::string_view later_keys = {};  ///< may be missing: there are texts from before them
+  std::string_view page, keys;       ///< keys separated by spaces
+  std::string_view later_keys = {};  ///< may be missing in older files
 };
 
 constexpr std::array required_pages{
@@ -40,7 +40,7 @@ constexpr std::array required_pages{
              "certainty_fairly certainty_little certainty_none movement movement_slow "
              "movement_fast movement_varied movement_unaware"},
     PageKeys{"thanks", "title text"}};
-/// May be missing, too.
+/// Pages that may be missing in older files.
 constexpr std::array later_pages{PageKeys{"declined", "title text take_back leave"},
                                  PageKeys{"setting_up", "title text"}};
 
@@ -49,7 +49,7 @@ struct TaskPage {
   std::string_view keys;
 };
 
-// A task's two pages. They may be missing, or lack keys: a session with the task refuses them.
+// A task's two pages. They may be missing or incomplete; a session with the task refuses that.
 std::vector<TaskPage> pages_of(std::string_view task) {
   return {{text_page(Screen::instructions, task), "title text"},
           {text_page(Screen::trial, task), task_named(task).texts}};
@@ -70,7 +70,7 @@ std::string read_text(TableReader& table, std::string_view key) {
   table.read(key, text);
   text = trimmed(text);
   if (text.empty() && table.has(key) && table.good({key}))
-    table.mistake(key, fmt::format("{} is empty, expected what participants read there", key));
+    table.mistake(key, fmt::format("{} is empty, expected a text for the participant", key));
   return text;
 }
 
@@ -86,15 +86,15 @@ std::map<std::string, std::string> read_page(TableReader& table, const PageKeys&
 constexpr WholeRange points_of_scales{0, 10};
 constexpr std::size_t most_choices = 12;
 
-// A key goes into the log's table; a name into the protocol.
+// A key enters the log's table; a name the protocol.
 void check_key(TableReader& table, std::string_view key, const std::string& value) {
   const bool plain = std::ranges::all_of(
       value, [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'; });
-  if (value == "done_s" || value == "answered_by")  // when it was gone through, and not by a person
-    table.mistake(key, fmt::format("{} is \"{}\", which the log keeps for itself", key, value));
+  if (value == "done_s" || value == "answered_by")  // time of completion, and a model's mark
+    table.mistake(key, fmt::format("{} is \"{}\", which is reserved for the log", key, value));
   if (!plain && table.good({key}))
-    table.mistake(key, fmt::format("{} is \"{}\", expected small letters, digits and _ only", key,
-                                   printable(value)));
+    table.mistake(key, fmt::format("{} is \"{}\", expected lowercase letters, digits and _ only",
+                                   key, printable(value)));
 }
 
 void read_choices(TableReader& table, FormQuestion& question) {
@@ -172,7 +172,7 @@ Questionnaire read_questionnaire(TableReader& table) {
   return questionnaire;
 }
 
-// All that people read of it.
+// All of its texts for participants.
 std::map<std::string, std::string> words_of(const Questionnaire& questionnaire) {
   std::map<std::string, std::string> words{{"title", questionnaire.title}};
   for (const FormQuestion& question : questionnaire.questions) {
@@ -248,7 +248,7 @@ void require_words(const ScreenTexts& texts, const SessionPlan& plan, const std:
     }
   }
   if (!missing.empty())
-    throw Error(fmt::format("{} lacks words of the protocol's tasks: {}; add them, or use another "
+    throw Error(fmt::format("{} lacks texts of the protocol's tasks: {}; add them, or use another "
                             "text file",
                             file, fmt::join(missing, ", ")),
                 ExitCode::invalid_file);

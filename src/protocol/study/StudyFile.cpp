@@ -18,7 +18,7 @@ namespace {
 constexpr int most_participants = 100000;
 constexpr std::size_t most_blocks = 20, most_orders = 1000;
 
-// Paths count from the study's file, wherever the program is started.
+// Paths are relative to the study's file.
 std::string beside(const std::string& file, const std::string& path) {
   return (std::filesystem::path(file).parent_path() / path).lexically_normal().string();
 }
@@ -30,7 +30,7 @@ void read_path(TableReader& table, std::string_view key, const std::string& file
   if (!path.empty()) field = beside(file, path);
 }
 
-// One that comes with heft by its name, or a file of texts.
+// The code of an installed language, or a file of texts.
 void read_language(TableReader& table, const std::string& file, std::optional<std::string>& field) {
   std::string language;
   table.read("language", language);
@@ -48,20 +48,19 @@ void check_blocks(TableReader& table, std::string_view key,
                   const std::vector<std::string>& blocks) {
   if (!table.has(key) || !table.good({key})) return;
   if (blocks.size() < 2 || blocks.size() > most_blocks)
-    table.mistake(
-        key, fmt::format("{} has {} block(s), expected 2 to {}: others stay where they are", key,
-                         blocks.size(), most_blocks));
+    table.mistake(key, fmt::format("{} has {} block(s), expected 2 to {}: others keep their places",
+                                   key, blocks.size(), most_blocks));
   for (std::size_t i = 0; i < blocks.size(); ++i)
     if (std::ranges::count(blocks.begin(), blocks.begin() + static_cast<std::ptrdiff_t>(i),
                            blocks[i]) > 0)
       table.mistake(key, i,
-                    fmt::format("\"{}\" is there twice, expected each block once", blocks[i]));
+                    fmt::format("\"{}\" is listed twice, expected each block once", blocks[i]));
 }
 
-// The orders, and where their blocks are named: in the table of the design, or in its first row.
+// The orders, and the place of their blocks: in the table of the design, or in its first row.
 struct Orders {
   std::vector<BlockOrder> orders{{}};
-  BlockOrder blocks;  ///< as they stand there; empty: there is nothing to order
+  BlockOrder blocks;  ///< in the file's order; empty: nothing to order
   std::optional<TableReader> named_in;
 };
 
@@ -79,10 +78,11 @@ void read_rows(TableReader& table, Orders& orders) {
       orders.blocks = order;
       orders.named_in = row;
     } else if (!std::ranges::is_permutation(order, orders.blocks)) {
-      row.mistake("blocks",
-                  fmt::format("blocks are not those of the first row ({}), expected the same ones "
-                              "in another order",
-                              described(orders.blocks)));
+      row.mistake(
+          "blocks",
+          fmt::format("blocks differ from those of the first row ({}), expected the same ones "
+                      "in another order",
+                      described(orders.blocks)));
     }
     orders.orders.push_back(std::move(order));
   }
@@ -111,7 +111,7 @@ Orders read_orders(TableReader& study, std::uint64_t seed) {
   return orders;
 }
 
-// What makes a protocol unusable as a mistake of the study, which names it.
+// A protocol's mistake as one of the study file.
 std::string in_a_line(const InvalidFile& error) {
   const Mistake& first = error.mistakes().front();
   const std::size_t others = error.mistakes().size() - 1;
@@ -126,7 +126,7 @@ std::vector<std::string> block_names(const Protocol& protocol) {
   return names;
 }
 
-// Its name and what it has of its own; the rest is the study's.
+// A group's name and settings; others are the study's.
 StudyGroup read_group(TableReader& table, const std::string& file, const StudyGroup& study) {
   StudyGroup group = study;
   std::optional<std::string> protocol;
@@ -175,7 +175,7 @@ class StudyReader {
     study_.protocol = protocol.value_or("");
   }
 
-  // What nobody's id may begin with is told before the first of them comes.
+  // Checks the prefix of ids before the first participant comes.
   void check_id_prefix() {
     const std::string& prefix = plan_.id_prefix;
     if (!reader_.good({"id_prefix"})) return;
@@ -183,8 +183,8 @@ class StudyReader {
       reader_.mistake("id_prefix", fmt::format("id_prefix \"{}\" {}", printable(prefix), what));
     };
     if (const auto wrong = wrong_with_id(planned_id(plan_, plan_.participants)))
-      return mistake(fmt::format("can't be: the id {}", *wrong));
-    if (prefix.starts_with(' ')) mistake("begins with a blank, which nobody sees");
+      return mistake(fmt::format("is invalid: the id {}", *wrong));
+    if (prefix.starts_with(' ')) mistake("begins with a blank, which is invisible");
   }
 
   void read_groups() {
@@ -206,17 +206,17 @@ class StudyReader {
   void check_name(TableReader& table, const StudyGroup& group) {
     if (!table.has("name") || !table.good({"name"})) return;
     if (std::ranges::count(plan_.groups, group.name, &StudyGroup::name) > 0)
-      table.mistake("name", fmt::format("there is a group \"{}\" already", group.name));
+      table.mistake("name", fmt::format("another group is named \"{}\"", group.name));
   }
 
   void check_protocol(TableReader& table, const StudyGroup& group) {
     if (!table.good({"protocol"}) || !reader_.good({"protocol"})) return;
     if (group.protocol.empty()) {
       if (reader_.has("group"))
-        table.mistake("protocol", "neither this group nor the file names a \"protocol\"");
+        table.mistake("protocol", "neither this group nor the file has a \"protocol\"");
       return;
     }
-    // Where the protocol was named; a study's protocol once, not once a group.
+    // Where the protocol is named; the study's protocol is checked once, not for each group.
     TableReader& named = table.has("protocol") ? table : reader_;
     if (!checked_.insert(group.protocol).second) return;
     try {
@@ -228,7 +228,7 @@ class StudyReader {
     }
   }
 
-  // Each protocol has all that is to be ordered.
+  // Requires that each protocol has all blocks to be ordered.
   void check_blocks_of(const Protocol& protocol, const std::string& path) {
     const std::vector<std::string> names = block_names(protocol);
     const std::vector<std::string_view> views(names.begin(), names.end());

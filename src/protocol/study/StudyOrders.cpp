@@ -11,8 +11,8 @@ namespace heft {
 namespace {
 using Row = std::vector<std::size_t>;
 
-// 0, 1, n-1, 2, n-2...: its neighbors differ by each number once, so that in the n rows that are
-// shifted from it each block follows each other one once (n even).
+// 0, 1, n-1, 2, n-2...: neighbors differ by each number once, so that in its n shifted rows each
+// block follows each other one once (n even).
 Row zigzag(std::size_t n) {
   Row row{0};
   for (std::size_t i = 1; i < n; ++i) row.push_back(i % 2 == 1 ? (i + 1) / 2 : n - i / 2);
@@ -25,7 +25,7 @@ Row counted(std::size_t n) {
   return row;
 }
 
-// The rows that are shifted from the first.
+// The rows that are shifts of the first.
 std::vector<Row> square_of(const Row& first) {
   std::vector<Row> rows;
   for (std::size_t shift = 0; shift < first.size(); ++shift) {

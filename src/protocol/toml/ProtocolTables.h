@@ -1,4 +1,4 @@
-// The tables of a protocol that have readers of their own, some shared with scene files, and --set.
+// Readers of the tables of a protocol, some common to scene files, and --set.
 #pragma once
 
 #include <string>
@@ -12,25 +12,25 @@
 
 namespace heft {
 
-/// Reads and closes the table [effector], where there is one.
+/// Reads and closes the table [effector], if it exists.
 void read_effector(TableReader& reader, Eigen::Vector3d& size_m);
 
-/// Reads the coupling's numbers; the caller closes the table. Absent keys are as given: the paper's
-/// (section 4.2, Parameters), unless somebody says otherwise.
+/// Reads the coupling's numbers; the caller closes the table. Missing keys keep the given values,
+/// by default the paper's (section 4.2, Parameters).
 Coupling read_coupling(TableReader& table, Coupling coupling = {});
 
-/// Techniques as protocols and scenes declare them, [[technique]] each; those of
-/// base/SimulationChoices.h need no declaration.
-/// @param defaults of what a spring does not say: the [coupling] table
+/// Reads the [[technique]]s of protocols and scenes; those of base/SimulationChoices.h need no
+/// declaration.
+/// @param defaults for a spring's missing keys: the [coupling] table
 std::vector<Technique> read_techniques(TableReader& reader, const Coupling& defaults);
 
-/// The names of all techniques that there are, declared or not.
+/// The names of all techniques, declared or predefined.
 class TechniqueNames {
  public:
   explicit TechniqueNames(const std::vector<Technique>& declared);
-  /// Reads a technique's name at `technique` or, as it was called first, at `condition`.
+  /// Reads a technique's name from `technique` or from its former key `condition`.
   void read(TableReader& table, std::string& name) const;
-  /// Notes a mistake at `key` where the name is no technique's.
+  /// Reports a mistake at `key` unless the name is a technique's.
   void check(TableReader& table, std::string_view key, const std::string& name) const;
 
  private:
@@ -40,15 +40,13 @@ class TechniqueNames {
 /// Reads and checks every block; those with mistakes may be left out.
 std::vector<Block> read_blocks(TableReader& protocol, const TechniqueNames& techniques);
 
-/// Puts the blocks that the key `block_order` names into that order, at the places that they have
-/// together in the file; others stay where they are.
+/// Rearranges the blocks named by the key `block_order` among their places; others are not moved.
 void read_block_order(TableReader& protocol, std::vector<Block>& blocks);
 
-/// Changes to a parsed file from the command line: "coupling.stiffness_n_per_m=100",
-/// "block.sorting.trials=4" (an array's table is named by its `name`, or by its kind).
-/// Puts each setting's value, written as in TOML, at its place in the tree. A key that the tree
-/// does not hold is added, for the file's own reader to judge.
-/// @throws Error (usage) for a setting without "=", with a value that is no TOML, or on no table
+/// Applies changes from the command line to a parsed file: "coupling.stiffness_n_per_m=100",
+/// "block.sorting.trials=4" (a table of an array is named by its `name` or kind). Values are
+/// written as in TOML. Unknown keys are added, for the file's reader to report.
+/// @throws Error (usage) for a setting without "=", with an invalid value, or for a missing table
 void apply_settings(TomlTable& root, const std::vector<ProtocolSetting>& settings);
 
 }  // namespace heft

@@ -9,7 +9,7 @@ namespace heft {
 namespace {
 
 [[noreturn]] void refuse(const ProtocolSetting& setting, const std::string& why) {
-  throw Error(fmt::format("--set {}: {}, expected KEY=VALUE as in "
+  throw Error(fmt::format("--set {}: {}, expected KEY=VALUE, such as "
                           "coupling.stiffness_n_per_m=100 or block.sorting.trials=4",
                           to_text(setting), why),
               ExitCode::usage);
@@ -22,9 +22,9 @@ TomlNode value_of(const ProtocolSetting& setting) {
     if (table.size() == 1) return table.front().node;
   } catch (const InvalidFile&) {
   }
-  // A bare word is meant as text: --set physics.simulator=bullet-ea
+  // A word without quotes is a text: --set physics.simulator=bullet-ea
   if (text.find_first_of("\"'\\\n") != std::string::npos || text.empty())
-    refuse(setting, fmt::format("\"{}\" is no value", text));
+    refuse(setting, fmt::format("\"{}\" is not a value", text));
   return {{}, text};
 }
 
@@ -43,7 +43,7 @@ bool is_called(TomlNode& node, const std::string& name) {
   return false;
 }
 
-// The table that `key` of `table` leads to; in an array of tables the next part names the element.
+// The table at `key` of `table`; in an array of tables the next part names the element.
 TomlTable& descend(TomlTable& table, const std::string& key, std::vector<std::string>& rest,
                    const ProtocolSetting& setting) {
   TomlEntry* entry = entry_named(table, key);
@@ -55,12 +55,12 @@ TomlTable& descend(TomlTable& table, const std::string& key, std::vector<std::st
     const auto element = std::ranges::find_if(
         *array, [&](TomlNode& candidate) { return is_called(candidate, rest.front()); });
     if (element == array->end())
-      refuse(setting, fmt::format("there is no {} called \"{}\"", key, rest.front()));
+      refuse(setting, fmt::format("there is no {} named \"{}\"", key, rest.front()));
     rest.erase(rest.begin());
     node = &*element;
   }
   if (auto* inner = std::get_if<TomlTable>(&node->value)) return *inner;
-  refuse(setting, fmt::format("\"{}\" is no table", key));
+  refuse(setting, fmt::format("\"{}\" is not a table", key));
 }
 
 void apply(TomlTable& root, const ProtocolSetting& setting) {

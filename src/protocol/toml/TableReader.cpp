@@ -10,7 +10,7 @@
 namespace heft {
 
 namespace {
-// The nearest key; one that goes on after the written one (most likely with its unit) is nearest.
+// The most similar key; preferably one that continues the written one (most likely with its unit).
 std::optional<std::string> meant(std::string_view written,
                                  std::span<const std::string_view> candidates) {
   const auto longer = std::ranges::find_if(candidates, [&](std::string_view candidate) {
@@ -326,7 +326,7 @@ void TableReader::require(std::initializer_list<std::string_view> keys) {
 
 void TableReader::refuse_unknown(const TomlEntry& entry) {
   const std::vector<std::string_view> known(known_.begin(), known_.end());
-  std::vector<std::string_view> absent;  // what a misspelled key may have meant
+  std::vector<std::string_view> absent;  // candidates for a misspelled key
   std::ranges::copy_if(known, std::back_inserter(absent), [&](auto key) { return !has(key); });
   auto nearest = meant(entry.key, absent);
   if (nearest) mistaken_.insert(*nearest);

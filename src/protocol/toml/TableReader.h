@@ -1,6 +1,6 @@
-// Reads the keys of one TOML table into typed fields. Every mistake is noted at its place and
-// reading goes on, so that a file's mistakes are reported together. The order is: read every key,
-// close(), then check fields against each other with good().
+// Reads the keys of a TOML table into typed fields. Mistakes are collected with their places, so
+// that a file's mistakes are reported together. Read every key, close(), then check fields against
+// each other with good().
 #pragma once
 
 #include <Eigen/Core>
@@ -20,7 +20,7 @@ namespace heft {
 
 class MassCurve;
 
-/// Places and sizes in meters.
+/// Positions and sizes in meters.
 inline constexpr Range on_earth{-1e6, 1e6};
 inline constexpr Range size_on_earth{least, 1e6};
 
@@ -28,20 +28,20 @@ class TableReader {
  public:
   TableReader(const TomlTable& root, Mistakes& mistakes);
 
-  // Each leaves `field` as it is where the key is absent or its value a mistake.
+  // Each leaves `field` unchanged if the key is absent or its value a mistake.
   void read(std::string_view key, double& field, const Range& range = any_number);
   void read(std::string_view key, std::optional<double>& field, const Range& range = any_number);
   void read(std::string_view key, int& field, const WholeRange& range = {});
   void read(std::string_view key, std::uint64_t& field, const WholeRange& range);
   void read(std::string_view key, bool& field);
   void read(std::string_view key, std::string& field);
-  /// Any number of numbers, but not none.
+  /// One or more numbers.
   void read(std::string_view key, std::vector<double>& field, const Range& range = any_number);
-  /// Any number of texts that are not empty, but not none.
+  /// One or more texts, none of them empty.
   void read(std::string_view key, std::vector<std::string>& field);
   void read(std::string_view key, Eigen::Vector2d& field, const Range& range = any_number);
   void read(std::string_view key, Eigen::Vector3d& field, const Range& range = any_number);
-  /// Any number of pairs [a, b], but not none; none after a mistake.
+  /// One or more pairs [a, b]; none after a mistake.
   void read(std::string_view key, std::vector<Eigen::Vector2d>& pairs, const Range& of_a,
             const Range& of_b);
   /// Pairs [mass in g, value] of ascending masses.
@@ -64,16 +64,16 @@ class TableReader {
       read(key.name, field, range...);
     });
   }
-  /// One of `names`; none where the key is absent or its value a mistake.
+  /// One of `names`; none if the key is absent or its value a mistake.
   std::optional<std::string> read_name(std::string_view key,
                                        std::span<const std::string_view> names);
-  /// As read_name, but the key must be there, and where it or its value is misspelled, gives what
-  /// was most likely meant: so that the table can be checked further.
+  /// As read_name for a required key. After a mistake, gives the most likely name, so that the rest
+  /// of the table can be checked.
   std::optional<std::string> read_nearest_name(std::string_view key,
                                                std::span<const std::string_view> names);
-  /// The table [key], if it is there.
+  /// The table [key], if it exists.
   std::optional<TableReader> table(std::string_view key);
-  /// Reads the table [key] and closes it, if it is there.
+  /// Reads the table [key] and closes it, if it exists.
   template <typename Read>
   void in_table(std::string_view key, const Read& read) {
     auto inner = table(key);
@@ -84,28 +84,27 @@ class TableReader {
   /// The tables [[key]], in order.
   std::vector<TableReader> tables(std::string_view key);
 
-  /// Says that these keys must be there.
+  /// Requires these keys.
   void require(std::initializer_list<std::string_view> keys);
-  /// Notes the keys that nothing has read, and those required that are missing: a misspelled key
-  /// once, not also as a missing one.
+  /// Reports unread keys and missing required ones: a misspelled key once, not also as missing.
   void close();
 
   bool has(std::string_view key) const { return find(key) != nullptr; }
   bool has_table(std::string_view key) const;
   bool is_list(std::string_view key) const;
-  /// By name.
+  /// In alphabetical order.
   std::vector<std::string> keys() const;
-  /// Whether no mistake was noted at any of these keys.
+  /// Whether no mistake was found at any of these keys.
   bool good(std::initializer_list<std::string_view> keys) const;
-  /// Notes what a config's check() found, once the table is closed: each mistake at the first of
-  /// its keys that is there, and not where a mistake was noted at one of them.
+  /// Reports a config's mistakes, once the table is closed: each at the first existing of its keys,
+  /// unless one of them already has a mistake.
   void note(const ConfigMistakes& mistakes);
-  /// Notes a mistake at the key's value, or at the table where the key is absent.
+  /// Reports a mistake at the key's value, or at the table if the key is absent.
   void mistake(std::string_view key, const std::string& message);
-  /// Notes a mistake at the i-th value of an array.
+  /// Reports a mistake at the i-th value of an array.
   void mistake(std::string_view key, std::size_t i, const std::string& message);
   TomlPlace place() const { return place_; }
-  /// How messages call the table: "[layout]", "[[block.staircase]]", "the file".
+  /// The table's name in messages: "[layout]", "[[block.staircase]]", "the file".
   const std::string& title() const { return title_; }
 
  private:

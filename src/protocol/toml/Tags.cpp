@@ -11,12 +11,12 @@
 namespace heft {
 
 namespace {
-// Of a side. Measured by hand a corner may be off by a millimeter; a typing slip is far more.
+// Relative to a side. Manual measurements are within a millimeter; typing errors are far larger.
 constexpr double tolerance = 0.05;
 
 const std::string corners = "corners_m";
 
-// What makes the corners no square; empty where they are one.
+// The deviation of corners from a square; empty for a square.
 std::string flaw(const std::array<Eigen::Vector3d, 4>& c) {
   const std::array sides_m{(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[3] - c[2]).norm(),
                            (c[0] - c[3]).norm()};
@@ -44,7 +44,7 @@ struct Grid {
   int last_id() const { return first_id + columns * rows - 1; }
 };
 
-// Whether what a print has beyond the detected corners is white, and not part of the code.
+// Whether the part of a print beyond the detected corners is white, not code.
 bool has_white_margin(const TagPattern& print) {
   for (int i = 0; i < print.n_cells; ++i)
     if (!print.is_white(i, 0)) return false;
@@ -53,7 +53,7 @@ bool has_white_margin(const TagPattern& print) {
 
 void check_pitch(TableReader& table, const Grid& grid, const TagPattern& print) {
   if (!table.good({"tag_m", "pitch_m"})) return;
-  const bool shared = has_white_margin(print);  // neighbors can share white, but no code
+  const bool shared = has_white_margin(print);  // neighbors can share white, but not code
   const double gap_m = print.margin_m(grid.tag_m) * (shared ? 1 : 2);
   if (grid.pitch_m < grid.tag_m + gap_m - grid_tolerance_m)
     table.mistake("pitch_m",
@@ -92,7 +92,7 @@ Tag tag_of(const Box& box, BoxFace face, const FaceFrame& frame, int id) {
   return tag_on(frame, id, {0, up_m}, box.tag_m);
 }
 
-// The corners of the white around it lie on the face, too.
+// The corners of the white margin must be on the face, too.
 bool fits(const Tag& tag, const FaceFrame& face, double white_m) {
   const Eigen::Vector2d center_m = face.flat(tag_center_m(tag));
   for (const Eigen::Vector3d& corner_m : tag.corners_m) {
@@ -153,7 +153,7 @@ void check_ids(std::vector<PlacedTag>& tags, const std::string& family) {
       return other.tag.id == id && other.table.good({other.id_key});
     };
     if (std::any_of(tags.begin(), tags.begin() + static_cast<std::ptrdiff_t>(i), same))
-      table.mistake(key, fmt::format("tag {} is there twice, expected each id once", tag.id));
+      table.mistake(key, fmt::format("tag {} is listed twice, expected each id once", tag.id));
   }
 }
 
@@ -196,7 +196,7 @@ std::vector<PlacedTag> read_box(TableReader& table, const std::string& family,
   if (tags.empty() &&
       table.good({"tip", "top", "left", "right", "bottom", "back", "upper_left", "upper_right"}))
     table.mistake("tip",
-                  "[box] names no face, expected at least one with its tag's id, such as "
+                  "[box] has no face, expected at least one with its tag's id, such as "
                   "tip = 30");
   return tags;
 }

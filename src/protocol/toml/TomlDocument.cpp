@@ -66,8 +66,8 @@ std::size_t offset_of(std::string_view text, TomlPlace place) {
   return offset;
 }
 
-// The library takes a number beyond its type for a syntax error, which would hide every other
-// mistake of the file. Puts "nan" in such a number's place and remembers what was written.
+// The library reports a number beyond its type as a syntax error, which would hide all other
+// mistakes. Replaces such a number by "nan" and remembers its text.
 bool set_aside(std::string& text, const toml::parse_error& error, Overflows& overflows) {
   const std::string_view why = error.description();
   if (why.find("not representable in 64 bits") == std::string_view::npos &&
@@ -94,7 +94,7 @@ bool set_aside(std::string& text, const toml::parse_error& error, Overflows& ove
         fmt::format("not valid TOML: {}; the rest of the file was not checked", why)}});
 }
 
-// The library follows dotted keys a call deeper for each dot, until the stack is used up.
+// The library recurses for each dot of a key, which could overflow the stack.
 void refuse_deep_keys(const std::string& text, const std::string& file) {
   constexpr auto most_dots = 3000;
   if (std::ranges::count(text, '.') > most_dots)
@@ -103,7 +103,7 @@ void refuse_deep_keys(const std::string& text, const std::string& file) {
 }  // namespace
 
 TomlTable parse_toml(const std::string& text, const std::string& file) {
-  constexpr std::size_t most_overflows = 100;  // each makes the library read the file once more
+  constexpr std::size_t most_overflows = 100;  // each makes the library read the file again
   refuse_deep_keys(text, file);
   std::string readable = text;
   Overflows overflows;

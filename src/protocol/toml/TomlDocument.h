@@ -1,6 +1,5 @@
-// A TOML file as a tree of values that know their places, and the mistakes found in it. The only
-// door to the TOML library; what the values mean is for the readers of procedures, scenes and
-// protocols.
+// A TOML file as a tree of values with their places, and the collected mistakes. The only file that
+// uses the TOML library; the readers of procedures, scenes and protocols interpret the values.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +16,7 @@ struct TomlEntry;
 using TomlArray = std::vector<TomlNode>;
 using TomlTable = std::vector<TomlEntry>;  ///< in no particular order; keys are unique
 
-/// A date or time: valid TOML that no file of ours has a use for.
+/// A date or time: valid TOML that no file uses.
 struct TomlDate {};
 
 /// A number too large for its type, as written.
@@ -47,14 +46,14 @@ struct TomlEntry {
 /// @throws InvalidFile with the place of the first syntax error
 TomlTable parse_toml(const std::string& text, const std::string& file);
 
-/// A value as a message shows it: short, on one line, without control characters.
+/// A value for messages: short, on one line, without control characters.
 std::string shown(const TomlNode& node);
 
 class Mistakes {
  public:
   explicit Mistakes(std::string file) : file_(std::move(file)) {}
   void add(TomlPlace place, std::string message);
-  /// All of them in order of place.
+  /// All mistakes in order of place.
   InvalidFile as_error() const;
   /// @throws InvalidFile if there are any
   void throw_if_any() const;

@@ -12,7 +12,7 @@ namespace heft {
 namespace {
 using Eigen::Vector2d;
 
-// A value that changes evenly over a triangle.
+// A value that varies linearly over a triangle.
 struct Ramp {
   double at_origin = 0, per_column = 0, per_row = 0;
 
@@ -34,27 +34,27 @@ std::optional<Ramp> ramp_over(const RasterTriangle& triangle,
   return ramp;
 }
 
-// Samples sit a quarter of a pixel either side of its center.
+// Samples are a quarter of a pixel from the pixel's center in x and y.
 std::array<Vector2d, 3> in_samples(const RasterTriangle& triangle) {
   std::array<Vector2d, 3> corners;
   for (std::size_t i = 0; i < 3; ++i) corners[i] = 2 * triangle[i].pixel + Vector2d::Constant(0.5);
   return corners;
 }
 
-// Samples count nearness in steps of 256, the surface's number between them. Things start at
-// 1 / max_nearness = 1.6 cm from the lens; half a meter away a step is two thousandths of a mm.
+// Samples count nearness in steps of 256, with the surface number in the lower bits. The range
+// starts at 1 / max_nearness = 1.6 cm from the lens; at half a meter a step is 0.002 mm.
 constexpr double max_nearness = 64, nearness_scale = 2147483648.0 / max_nearness;
 constexpr std::uint32_t surface_bits = 0xff;
 
-// Unsigned numbers wrap around: a sum of them is right if it is in range, whatever its parts.
+// Unsigned numbers wrap around: a sum within range is right, whatever its terms.
 std::uint32_t wrapped(double value) {
   return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::clamp(value, -9e18, 9e18)));
 }
 
 using Four = std::array<std::int32_t, 4>;
 
-// The rows' loops take everything by value: so the compiler sees that the pixels they write are
-// none of it, and does four at a time.
+// Row functions take everything by value, so that the compiler knows that the written pixels alias
+// none of it, and vectorizes them.
 void draw_row(std::span<std::int32_t> samples, std::uint32_t near, std::uint32_t slope,
               std::uint32_t surface) {
   for (std::int32_t& sample : samples) {
@@ -65,7 +65,7 @@ void draw_row(std::span<std::int32_t> samples, std::uint32_t near, std::uint32_t
 
 constexpr double darkness_scale = 255 * 65536.0;
 
-// What light the darkness so far leaves is dimmed by what is added.
+// Multiplies the remaining light by the added filter.
 void dim_row(std::span<std::uint8_t> darkness, std::uint32_t added, std::uint32_t slope) {
   added += 32768;  // to round
   for (std::uint8_t& dark : darkness) {
@@ -75,7 +75,7 @@ void dim_row(std::span<std::uint8_t> darkness, std::uint32_t added, std::uint32_
   }
 }
 
-// Shadows are few and their rows long: most of a row is passed over eight pixels at a time.
+// Shadows are few and their rows long: most of a row is skipped eight pixels at a time.
 bool eight_are_light(const std::uint8_t* darkness) {
   std::uint64_t eight;
   std::memcpy(&eight, darkness, sizeof eight);
@@ -99,7 +99,7 @@ std::size_t surface_of(std::int32_t sample) {
   return static_cast<std::uint32_t>(sample) & surface_bits;
 }
 
-// Surfaces are compared, not samples: a pixel's nearnesses all differ.
+// Compares surfaces, because the nearnesses of a pixel's samples differ.
 bool alike(const Four& four) {
   return surface_of((four[0] ^ four[1]) | (four[0] ^ four[2]) | (four[0] ^ four[3])) == 0;
 }
@@ -108,7 +108,7 @@ bool all_in_front(const Four& glass, const Four& solid) {
   return glass[0] > solid[0] && glass[1] > solid[1] && glass[2] > solid[2] && glass[3] > solid[3];
 }
 
-// For places far outside and for what is not a number, too.
+// Also for points far outside the frame, and for values that are not numbers.
 int grid_line(double value, int n_lines) {
   return value >= 0 ? static_cast<int>(std::min(value, static_cast<double>(n_lines))) : 0;
 }
@@ -131,7 +131,7 @@ void Rasterizer::clear() {
 
 std::uint8_t Rasterizer::add_surface(const Surface& surface) {
   if (paints_.size() > surface_bits)
-    throw Error("a frame can't hold more than 255 surfaces (about 40 boxes); show fewer things");
+    throw Error("a frame can have at most 255 surfaces (about 40 boxes); show fewer objects");
   paints_.push_back(
       {surface.bgr, static_cast<int>(std::lround(256 * surface.opacity)), surface.object});
   return static_cast<std::uint8_t>(paints_.size() - 1);
@@ -207,7 +207,7 @@ void Rasterizer::paint_row(int y, std::uint8_t* bgr) const {
   }
 }
 
-// The pixels of a row that have a surface on any of their samples.
+// The pixels of a row with a surface on any of their samples.
 Span Rasterizer::columns_in(int y) const {
   Span samples;
   for (const Layer<Sample>* layer : {&solid_, &glass_})
@@ -215,7 +215,7 @@ Span Rasterizer::columns_in(int y) const {
   return {samples.begin / 2, (samples.end + 1) / 2};
 }
 
-// The frame's own pixels come back, and what is translucent over them.
+// Restores the frame's own pixels, with translucent surfaces over them.
 void Rasterizer::put_in_front(int y, const std::uint8_t* opacity, const std::uint8_t* below,
                               std::uint8_t* bgr) const {
   const Sample *glass = glass_.row(2 * y), *glass_below = glass_.row(2 * y + 1);

@@ -1,7 +1,7 @@
-// Triangles to pixels: four samples a pixel in a 2 x 2 grid, a depth for each, one solid and one
-// translucent layer, and soft shade on what lies below both. Knows no cameras and no boxes. A dozen
-// boxes don't need a graphics card; touching only the rows and columns that are drawn on makes this
-// faster than reading a frame back from one.
+// Draws triangles: four samples per pixel in a 2 x 2 grid with a depth each, one solid and one
+// translucent layer, and soft shade below both. Independent of cameras and boxes. For a dozen boxes
+// this is faster than reading a frame back from a graphics card, because only touched rows and
+// columns are processed.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,12 +29,12 @@ class Layer {
   int n_columns() const { return n_columns_; }
   int n_rows() const { return n_rows_; }
 
-  /// The columns of a row that may hold something else than Value{}.
+  /// The columns of a row that may differ from Value{}.
   Span touched(int row) const { return touched_[static_cast<std::size_t>(row)]; }
 
   const Value* row(int row) const { return values_.data() + start(row); }
 
-  /// The first of the columns begin to end of a row, to be written to.
+  /// The first of the columns begin to end of a row, for writing.
   Value* write(int row, int begin, int end) {
     Span& span = touched_[static_cast<std::size_t>(row)];
     span = {std::min(span.begin, begin), std::max(span.end, end)};
@@ -60,11 +60,11 @@ class Layer {
   std::vector<Span> touched_;
 };
 
-/// How a part of the frame is painted.
+/// Color of a part of the frame.
 struct Surface {
   std::array<std::uint8_t, 3> bgr{};
-  double opacity = 1;  ///< less than 1: drawn into the translucent layer
-  int object = 0;      ///< what find_object() answers for a solid surface; 0: nothing
+  double opacity = 1;  ///< below 1: drawn into the translucent layer
+  int object = 0;      ///< result of find_object() for a solid surface; 0: none
 };
 
 /// A corner of a triangle. Pixel centers are integers.
@@ -79,32 +79,32 @@ class Rasterizer {
  public:
   Rasterizer(int width_px, int height_px);
 
-  /// Forgets all triangles and surfaces. Costs what was drawn, not what could be.
+  /// Removes all triangles and surfaces. The cost depends on the area that was drawn.
   void clear();
 
   /// @return the surface's number, for fill()
-  /// @throws Error when there are more than 255
+  /// @throws Error if there are more than 255
   std::uint8_t add_surface(const Surface& surface);
 
-  /// Draws a triangle, of either winding, where nothing of its layer is nearer. Triangles with an
-  /// edge in common cover no sample twice and leave none out. Translucent ones are seen in front of
-  /// solid ones, not behind them, in whatever order they come; of several only the nearest.
+  /// Draws a triangle, of either winding, where no surface of its layer is nearer. Triangles with a
+  /// common edge cover every sample exactly once. Translucent surfaces are visible in front of
+  /// solid ones, in any order of drawing; of several only the nearest.
   void fill(const RasterTriangle& triangle, std::uint8_t surface);
 
-  /// Darkens the frame below all surfaces. Shades on one another add up as filters do.
+  /// Darkens the frame below all surfaces. Overlapping shades multiply, as filters do.
   void shade(const RasterTriangle& triangle);
 
   /// Paints everything over a frame of blue, green and red of the rasterizer's size.
   /// @param in_front one channel of the same size: how much of the frame, of 255, is in front of
-  ///   all solid surfaces and shade and stays; translucent ones are painted over it. Null: nothing
+  ///   solid surfaces and shade and remains; translucent ones are painted over it. Null: none
   void paint(Image& frame, const Image* in_front = nullptr) const;
 
-  /// The object whose solid surface was filled nearest to a pixel, within so many pixels.
+  /// The object whose solid surface is nearest to a pixel, within reach_px.
   std::optional<int> find_object(const Eigen::Vector2d& pixel, double reach_px) const;
 
  private:
-  // A sample holds its nearness above 8 bits of surface number, so that the nearer of two is the
-  // greater number: one comparison tests the depth and takes the color. 0 is nothing.
+  // A sample holds its nearness above 8 bits of surface number, so that one comparison tests the
+  // depth and selects the color. 0 is background.
   using Sample = std::int32_t;
   using Four = std::array<Sample, 4>;  // of a pixel
 
@@ -123,8 +123,8 @@ class Rasterizer {
   std::array<int, 3> color(Sample solid, Sample glass, const std::uint8_t* below) const;
 
   std::vector<Paint> paints_;     // by surface number; 0 is no surface
-  Layer<Sample> solid_, glass_;   // two rows and columns a pixel
-  Layer<std::uint8_t> darkness_;  // of 255, one a pixel
+  Layer<Sample> solid_, glass_;   // two rows and columns per pixel
+  Layer<std::uint8_t> darkness_;  // of 255, one per pixel
 };
 
 }  // namespace heft

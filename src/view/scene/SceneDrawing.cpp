@@ -17,14 +17,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Blue against yellow is the contrast that every kind of color vision keeps; neither is the white,
-// black or skin of what is filmed. Blue, green, red.
+// Blue against yellow is distinct in every kind of color vision, and neither is the white, black or
+// skin of the filmed scene. Blue, green, red.
 constexpr std::array cube_face{52, 182, 255}, cube_edge{10, 84, 146};
 constexpr std::array clone_face{228, 110, 8}, clone_edge{110, 34, 0};
 constexpr std::array other_face{167, 121, 204}, other_edge{96, 52, 120};
 constexpr std::array effector_face{140, 146, 150}, effector_edge{84, 88, 92};
 
-// The filmed effector shows through its clone: where they part, both are seen.
+// The filmed effector remains visible through its clone.
 constexpr double clone_opacity = 0.72;
 constexpr double cube_shadow = 0.5, clone_shadow = 0.3;
 
@@ -34,12 +34,12 @@ BoxLook cube_look(int slot) {
   return {cube_face, cube_edge, 1, slot};
 }
 
-// The camera's picture, gray or in color, into one of three channels and the same size.
+// The camera's picture, gray or color, as three channels of the same size.
 void copy_picture(const Image& picture, Image& frame) {
   if (picture.width != frame.width || picture.height != frame.height)
     throw Error(fmt::format(
-        "a camera picture is {} x {} pixels, but its calibration is for {} x {}; calibrate the "
-        "camera in the mode that it films in",
+        "a camera picture has {} x {} pixels, but its calibration is for {} x {}; calibrate the "
+        "camera in the mode that the session uses",
         picture.width, picture.height, frame.width, frame.height));
   if (picture.channels == 3) {
     std::ranges::copy(picture.pixels, frame.pixels.begin());
@@ -62,7 +62,7 @@ SceneDrawing::SceneDrawing(const Stage& stage, const Intrinsics& camera)
       frame_(camera.width_px, camera.height_px, 3),
       rasterizer_(camera.width_px, camera.height_px) {}
 
-// A table and a sheet of paper where the board would be.
+// A table and a sheet of paper at the board's place.
 void SceneDrawing::draw_plain_table() {
   constexpr std::array<std::uint8_t, 3> table{150, 168, 182};
   plain_table_ = frame_;
@@ -90,7 +90,7 @@ void SceneDrawing::draw_background(const ViewFrame& shown) {
   if (shown.frame.tracked) draw_real_effector(shown.frame.effector);
 }
 
-// Shadows first, then solid things, then the translucent one: the rasterizer's order.
+// In the rasterizer's order: shadows, solid objects, the translucent one.
 void SceneDrawing::draw_virtual(const ViewFrame& shown) {
   const std::optional<Pose>& clone = shown.frame.clone;
   const std::vector<Pose>& cubes = shown.frame.cubes;
@@ -139,7 +139,7 @@ Eigen::AlignedBox2d SceneDrawing::pixels_around(const Eigen::AlignedBox3d& board
   for (int i = 0; i < 8; ++i) {
     const auto corner = static_cast<Eigen::AlignedBox3d::CornerType>(i);
     const auto pixel = pixel_of(board_m.corner(corner));
-    if (!pixel) return frame;  // it reaches beyond the picture
+    if (!pixel) return frame;  // it extends beyond the picture
     around.extend(*pixel + Vector2d::Constant(0.5));
   }
   return around.intersection(frame);
@@ -147,7 +147,7 @@ Eigen::AlignedBox2d SceneDrawing::pixels_around(const Eigen::AlignedBox3d& board
 
 std::optional<Vector2d> SceneDrawing::label_place(int slot) const {
   if (slot < 1 || slot > static_cast<int>(cubes_.size())) return {};
-  // Half a cube above its top: in the frame, behind the top's far edge.
+  // Half a cube above its top: in the frame, behind the far edge of the top.
   const Pose& cube = cubes_[static_cast<std::size_t>(slot - 1)];
   const Vector3d above_m(0, 0, stage_.cube_size_m);
   return pixel_of(cube.position_m + above_m);

@@ -1,6 +1,6 @@
-// Draws what the participant sees: the camera picture, and over it cubes on the board with a soft
-// contact shadow and the effector's clone, with correct depth between clone, cubes and table. One
-// software rasterizer for every view, so what is recorded is what was seen.
+// Draws the participant's view: the camera picture, and over it cubes with a soft contact shadow
+// and the effector's clone, with correct depth between clone, cubes and table. All views share this
+// rasterizer, so that a recorded video equals the displayed frames.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,21 +17,21 @@ class SceneDrawing {
  public:
   explicit SceneDrawing(const ViewSetup& setup);
 
-  /// The frame as shown: blue, green, red, of the camera's size (640 x 480 without a camera).
+  /// The displayed frame: blue, green, red, of the camera's size (640 x 480 without a camera).
   /// Valid until the next call.
   const Image& draw(const ViewFrame& shown);
 
-  /// The slot (from 1) of the cube drawn at a pixel of the last frame; none: no cube.
+  /// The slot (from 1) of the cube at a pixel of the last frame; none: no cube.
   std::optional<int> slot_at(double x_px, double y_px) const;
 
-  /// The pixel above the middle of a cube's top in the last frame, where its label goes; none:
-  /// not in the frame.
+  /// The pixel above the middle of a cube's top in the last frame, for its label; none: not in the
+  /// frame.
   std::optional<Eigen::Vector2d> label_place(int slot) const;
 
   /// The pixel of a point of the board frame in the last frame; none: not in it.
   std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector3d& board_m) const;
 
-  /// The pixels that a box of the board frame reaches, within the frame: its least and last corner.
+  /// The bounding box in pixels of a box of the board frame, within the frame.
   Eigen::AlignedBox2d pixels_around(const Eigen::AlignedBox3d& board_m) const;
 
   /// The point at that height over the table that is seen at a pixel; none: there is none.
@@ -51,7 +51,7 @@ class SceneDrawing {
   Viewpoint viewpoint_;
   Image frame_;
   Rasterizer rasterizer_;
-  Image plain_table_;        ///< as seen from the viewpoint; empty: not drawn from there yet
+  Image plain_table_;        ///< as seen from the viewpoint; empty: not drawn yet
   std::vector<Pose> cubes_;  ///< of the last frame
 };
 

@@ -1,5 +1,5 @@
-// draw_shadow of Shapes.h. A shadow is a flat polygon on the table, as dark as it gets, with rings
-// around it that fade to nothing.
+// draw_shadow of Shapes.h. A shadow is a flat polygon of full darkness on the table, with rings
+// around it that fade out.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -15,9 +15,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double lean = 0.22;             // of the shadow per meter of height, away from the lamp
-constexpr double contact_blur_m = 0.009;  // width of the fading rim where a box stands
-constexpr double blur_per_height = 0.6;   // and how it grows as the box is lifted
-constexpr double fading_height_m = 0.03;  // lifted so far, a shadow is half as dark
+constexpr double contact_blur_m = 0.009;  // width of the fading rim below a standing box
+constexpr double blur_per_height = 0.6;   // growth of the rim as the box is lifted
+constexpr double fading_height_m = 0.03;  // a box at this height has a shadow half as dark
 constexpr std::array rim_darkness{1.0, 0.52, 0.17, 0.0};  // from the polygon outward
 
 double cross(const Vector2d& a, const Vector2d& b) {
@@ -35,7 +35,7 @@ std::array<Vector3d, 8> corners_of(const Pose& board_from_box, const Vector3d& s
 
 using Footprint = Polygon<Vector2d, 8>;  // convex, on the table, counterclockwise
 
-// The convex hull, gift wrapped: eight points need nothing better.
+// The convex hull by gift wrapping, which suffices for eight points.
 Footprint hull_of(const std::array<Vector2d, 8>& points_m) {
   const auto first = std::ranges::min_element(points_m, [](const Vector2d& a, const Vector2d& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
@@ -65,7 +65,7 @@ Footprint footprint_of(const std::array<Vector3d, 8>& corners_m) {
   return hull_of(points_m);
 }
 
-// What moves outward by a distance, with rounded corners: three directions at each.
+// A corner moved outward by a distance is rounded by three directions.
 struct RimCorner {
   Vector2d start_m, outward;
 };
@@ -111,7 +111,7 @@ void draw_shadow(Rasterizer& rasterizer, const Viewpoint& viewpoint, const Pose&
                  const Vector3d& size_m, double strength) {
   const auto corners_m = corners_of(board_from_box, size_m);
   const auto z_m = [](const Vector3d& corner_m) { return corner_m.z(); };
-  if (z_m(std::ranges::max(corners_m, {}, z_m)) < 0) return;  // all of it below the table
+  if (z_m(std::ranges::max(corners_m, {}, z_m)) < 0) return;  // completely below the table
   const double height_m = std::max(0.0, z_m(std::ranges::min(corners_m, {}, z_m)));
   const Footprint footprint_m = footprint_of(corners_m);
   if (footprint_m.size() < 3) return;

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 constexpr double edge_line_m = 0.0009;
 constexpr double ambient = 0.62;  // light on a face that the lamp does not reach
 
-// To the lamp: above the table, behind the participant's left shoulder.
+// Direction to the lamp: above the table, behind the participant's left shoulder.
 Vector3d to_lamp() {
   return Vector3d(-0.40, -0.48, 0.78).normalized();
 }
@@ -28,7 +28,7 @@ Surface lit(const std::array<int, 3>& bgr, double light, const BoxLook& look) {
   return surface;
 }
 
-// One number for the whole box, so that neighboring faces meet along the same bends.
+// One number for the whole box, so that neighboring faces are divided alike.
 int pieces_of_box(const Viewpoint& viewpoint, const Pose& board_from_box, const Vector3d& half_m) {
   int most = 1;
   for (int k = 0; k < 3; ++k) {
@@ -44,16 +44,16 @@ int pieces_of_box(const Viewpoint& viewpoint, const Pose& board_from_box, const 
   return most;
 }
 
-// A flat parallelogram with a border line along its sides: a face of a box, a sheet of paper.
+// A flat parallelogram with a border along its sides: a face of a box, a sheet of paper.
 struct BorderedQuad {
   Vector3d corner_m, along_m, across_m;  // board frame: a corner, two sides from it
   double border_m = 0;                   // width of the line
-  int pieces = 1;                        // each way, so that the lens can bend it
+  int pieces = 1;                        // in each direction, to follow the lens distortion
 };
 
 constexpr int most_cuts = 11;  // both sides, both borders, and up to eight pieces between them
 
-// Where a side is divided, as fractions of it.
+// Fractions at which a side is divided.
 struct Cuts {
   std::array<double, most_cuts> at{};
   int n = 0;

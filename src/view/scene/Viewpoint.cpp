@@ -12,13 +12,13 @@ using Eigen::Vector3d;
 using Eigen::Vector4d;
 
 constexpr std::size_t table_limit = 5;
-constexpr double nearest_m = 0.02;          // nothing nearer to the lens than this is drawn
-constexpr double table_tolerance_m = 1e-4;  // so that rounding hides nothing that lies on it
+constexpr double nearest_m = 0.02;          // nothing nearer to the lens is drawn
+constexpr double table_tolerance_m = 1e-4;  // prevents rounding from hiding what lies on the table
 constexpr double straight_enough_px = 0.1;
 constexpr int most_pieces = 8;
 
-// The rays of the frame's border span the view. Beyond them a distortion model means nothing: its
-// polynomial may fold far things back into the frame.
+// The rays through the frame's border bound the view. Beyond them the distortion's polynomial is
+// meaningless and may fold distant points back into the frame.
 struct RayBounds {
   Vector2d low{1e9, 1e9}, high{-1e9, -1e9};
 };
@@ -108,11 +108,12 @@ int Viewpoint::pieces(const Vector3d& from_board_m, const Vector3d& to_board_m) 
   const double length_px = along.norm();
   if (length_px < 1) return 1;
   const double bend_px = std::abs(along.x() * part.y() - along.y() * part.x()) / length_px;
-  const double needed = std::ceil(std::sqrt(bend_px / straight_enough_px));  // falls as 1 / n^2
+  const double needed =
+      std::ceil(std::sqrt(bend_px / straight_enough_px));  // the error falls as 1 / n^2
   return std::clamp(static_cast<int>(needed), 1, most_pieces);
 }
 
-// One limit after the other. A polygon that needs no cut is its own result.
+// Clips at one limit after the other. A polygon that needs no clipping is returned unchanged.
 std::span<const Corner> Viewpoint::clip(std::span<const Corner> polygon, CutQuad& cut) const {
   unsigned any = 0, all = ~0u;
   for (const Corner& corner : polygon) {

@@ -1,6 +1,6 @@
-// Where the frame is seen from: takes points of the board frame to pixels as the camera's lens
-// does, and cuts off what can't be seen: what is behind the camera, beside the frame or below the
-// table. Straight edges bend under a lens; whoever draws long ones asks how often to divide them.
+// The viewpoint of a frame: projects points of the board frame to pixels through the camera's lens,
+// and clips what is behind the camera, beside the frame or below the table. Straight edges bend
+// under a lens; pieces() says how to divide long ones.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@
 
 namespace heft {
 
-/// A corner of something flat, in the camera frame.
+/// A corner of a flat shape, in the camera frame.
 struct Corner {
   Eigen::Vector3d camera_m;
   double darkness = 0;          ///< shadows only
@@ -27,25 +27,25 @@ class Viewpoint {
  public:
   explicit Viewpoint(const Intrinsics& camera);
 
-  /// Moves the camera. Call before anything is seen.
+  /// Moves the camera. Call before projecting.
   void place(const Pose& camera_from_board);
   const Pose& camera_from_board() const { return camera_from_board_; }
 
   Corner corner(const Eigen::Vector3d& board_m, double darkness = 0) const;
 
-  /// The point at that height over the table that is seen at a pixel (of the nearest pixel of the
-  /// frame, if it is beside it); none: nothing at that height is.
+  /// The point at that height over the table that is seen at a pixel (outside the frame: at the
+  /// nearest pixel of the frame); none: there is none.
   std::optional<Eigen::Vector3d> point_at_height(const Eigen::Vector2d& pixel,
                                                  double height_m) const;
 
-  /// Whether a face with that outward normal (board frame) turns its front to the camera.
+  /// Whether a face with that outward normal (board frame) faces the camera.
   bool faces_camera(const Eigen::Vector3d& point_board_m, const Eigen::Vector3d& normal) const;
 
-  /// In how many pieces a straight edge must be drawn to bend as the lens bends it, to 0.1 px.
+  /// Number of straight pieces that follow the lens's bending of an edge to 0.1 px.
   int pieces(const Eigen::Vector3d& from_board_m, const Eigen::Vector3d& to_board_m) const;
 
-  /// Calls emit(a, b, c) with the visible corners of triangles that make up a flat convex polygon
-  /// of up to four corners.
+  /// Calls emit(a, b, c) with the visible corners of triangles that form a flat convex polygon of
+  /// up to four corners.
   template <typename Emit>
   void triangles(std::span<const Corner> polygon, const Emit& emit) const {
     CutQuad cut;
@@ -68,8 +68,8 @@ class Viewpoint {
   std::array<Eigen::Vector4d, n_limits> limits_{};  // inside: normal . point + offset >= 0
 };
 
-/// A good place to look from when no camera says where it is: the participant's side of the table,
-/// 45 cm from the board's center, which is in the middle of the frame.
+/// Default viewpoint without a camera: the participant's side of the table, 45 cm from the board's
+/// center, which is in the middle of the frame.
 Pose default_camera_from_board();
 
 }  // namespace heft

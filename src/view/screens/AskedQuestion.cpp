@@ -27,7 +27,7 @@ void AskedQuestion::add_answers(const Rect& room) {
     case QuestionKind::number:
       return add_keypad(room);
     case QuestionKind::text:
-      return;  // told to the experimenter
+      return;  // answered to the experimenter
   }
 }
 
@@ -58,7 +58,7 @@ int AskedQuestion::points_beside() const {
   return n_points() <= most ? n_points() : (n_points() + 1) / 2;
 }
 
-// The i-th of a grid, in the direction of reading; scales and keypads run from the left.
+// The i-th cell of a grid, in reading direction; scales and keypads always start at the left.
 Rect AskedQuestion::cell(const Rect& room, int i, int n_beside, bool as_read) const {
   const float gap = builder.measures.gap, n = static_cast<float>(n_beside);
   const float width = (room.width - (n - 1) * gap) / n;
@@ -88,7 +88,7 @@ void AskedQuestion::add_choices(const Rect& room) {
   }
 }
 
-// The ends' words above the first and the last.
+// The labels of the ends above the first and the last button.
 float AskedQuestion::add_ends(const Rect& room) {
   const Measures& m = builder.measures;
   const bool leftward = builder.typeface.reads_right_to_left();
@@ -119,7 +119,7 @@ void AskedQuestion::add_points(const Rect& room) {
   }
 }
 
-// A tap sets it; the two buttons below move it a little.
+// A tap sets the slider; the two buttons below move it slightly.
 void AskedQuestion::add_slider(const Rect& room) {
   const Measures& m = builder.measures;
   const float y = add_ends(room);
@@ -140,7 +140,7 @@ void AskedQuestion::add_slider(const Rect& room) {
   }
 }
 
-// What was typed, and at the other end of its line the range.
+// The typed number, and the range at the other end of its line.
 float AskedQuestion::add_typed(const Rect& room) {
   const Measures& m = builder.measures;
   const std::string range = fmt::format("{} – {}", question.least, question.most);

@@ -1,6 +1,5 @@
-// The answers of one question, drawn into a room: choices, points of a scale, a slider, a keypad.
-// On a form each tap is an answer; in the narrow column of a trial it is kept until it is
-// validated.
+// The answers of one question within an area: choices, points of a scale, a slider, a keypad. On a
+// form each tap is an answer; in the narrow column of a trial it is kept until it is validated.
 #pragma once
 
 #include <string>
@@ -13,14 +12,14 @@ enum class AskedIn { form, trial };
 
 class AskedQuestion {
  public:
-  /// @param answer given so far; empty: none
+  /// @param answer so far; empty: none
   AskedQuestion(PageBuilder& on, const FormQuestion& asked, const std::string& answer, AskedIn in)
       : builder(on), question(asked), given(answer), in_trial(in == AskedIn::trial) {}
 
   void add_answers(const Rect& room);
-  /// Room that words take above the buttons, px.
+  /// Height of the texts above the buttons, px.
   float above_px() const;
-  /// Rows of buttons that the answer takes.
+  /// Number of rows of buttons.
   int n_rows() const;
 
  private:

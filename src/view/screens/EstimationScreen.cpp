@@ -12,8 +12,7 @@ namespace heft {
 namespace {
 constexpr auto page = "trial_estimation";
 
-// What is asked: the words of the questionnaire's question, or of the page, and the standard's
-// number.
+// The question: the questionnaire's or the page's text, and the standard's number.
 std::string asked_words(const PageBuilder& builder, const Estimation::Offer& offer) {
   if (offer.is_standard)
     return fmt::format("{} {:g}.", builder.text(page, "standard"), offer.modulus->value);
@@ -24,7 +23,7 @@ std::string asked_words(const PageBuilder& builder, const Estimation::Offer& off
                      offer.modulus->value);
 }
 
-// The number that an answer stands for: of a choice its place among them, from 1.
+// The number of an answer; for a choice its place among the choices, from 1.
 double value_of(const FormQuestion& question, const std::string& given) {
   if (question.kind != QuestionKind::choice) return std::strtod(given.c_str(), nullptr);
   const auto chosen = std::ranges::find(question.choices, given, &AnswerChoice::value);
@@ -57,7 +56,7 @@ void Estimation::screen(PageBuilder& builder, const Offer& offer) {
   add_scene(builder, asked_words(builder, offer));
   add_hint(builder);
   const Rect column = column_of(builder);
-  if (offer.is_standard) {  // its number is where answers will be typed
+  if (offer.is_standard) {  // its number is displayed where answers will be typed
     builder.add_lines({fmt::format("{:g}", offer.modulus->value)}, column, column.y,
                       builder.measures.title);
     return add_last(builder, "validate", builder.text("buttons", "next"), {"validate"}, true);

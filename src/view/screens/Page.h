@@ -1,5 +1,5 @@
-// What one screen consists of, as plain data: text, the scene's place, and controls with their
-// places and effects. The screens fill a page, the painter draws it, taps are looked up in it.
+// The content of one screen as plain data: text, the scene's place, and controls with their places
+// and effects. Screens fill a page, the painter draws it, and taps are looked up in it.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct Rect {
   }
 };
 
-/// Marks a cube as the one that the next label is for; the session need not know.
+/// Selects the cube for the next label; not reported to the session.
 struct SelectCube {
   int slot = 1;
 };
@@ -39,24 +39,24 @@ struct TurnPart {
   int by = 1;
 };
 
-/// Sets an entry to where it is tapped, 0...100.
+/// Sets an entry by the tapped position, 0...100.
 struct Slide {
   std::string key;
   bool from_the_right = false;
-  bool typed = false;  ///< kept as a number that is being typed is
+  bool typed = false;  ///< a number that is still being typed
 };
 
-/// A number that is being typed, so far: an answer only when the question is left.
+/// A number being typed; it becomes an answer when the question is left.
 struct Typed {
   std::string key, value;
 };
 
-/// What a tap does: something that the session must know, or something between view and person.
+/// The effect of a tap: reported to the session, or within the page.
 using Effect = std::variant<Touch, SelectCube, TurnPart, Slide, Typed>;
 
 enum class Look { plain, primary };
 
-/// How far from its left end a slider is set; none: not yet.
+/// Position of a slider from its left end; none: not set.
 struct SliderValue {
   std::optional<float> fraction;
 };
@@ -65,14 +65,14 @@ struct Control {
   std::string name;  ///< stable, for tests and scripts: "validate", "cube_1", "label_lightest"
   Rect area;
   std::string text;
-  std::string note;  ///< a second line: which cube has this label
+  std::string note;  ///< a second line: the cube that has this label
   Effect effect;
-  char key = 0;  ///< the keyboard's equivalent (see WindowView.h); 0: none
+  char key = 0;  ///< the equivalent key (see WindowView.h); 0: none
   Look look = Look::plain;
   bool enabled = true;
   bool chosen = false;                    ///< drawn as switched on
   std::optional<SliderValue> slide = {};  ///< drawn as a slider
-  std::optional<Touch> entered = {};      ///< what was typed, which the session must know first
+  std::optional<Touch> entered = {};  ///< a typed entry, reported to the session before the effect
 };
 
 enum class Tone { strong, soft };
@@ -84,7 +84,7 @@ struct TextLine {
   Tone tone = Tone::strong;
 };
 
-/// Something written over a cube in the scene; an empty text with `selected` marks it only.
+/// A text over a cube in the scene; an empty one with `selected` only marks the cube.
 struct CubeMark {
   int slot = 1;
   std::string text;
@@ -94,24 +94,24 @@ struct CubeMark {
 struct Page {
   std::vector<TextLine> lines;
   std::vector<Control> controls;
-  std::optional<Rect> scene;  ///< where the scene goes, as large as fits; none: no scene
-  float scene_opacity = 1;    ///< less while it fades
+  std::optional<Rect> scene;  ///< the scene is fitted into it; none: no scene
+  float scene_opacity = 1;    ///< lower while it fades
   std::string notice;         ///< one sentence over the scene's lower edge
-  std::string hint;           ///< over its upper edge, away from the effector that it is about
+  std::string hint;  ///< over the scene's upper edge, away from the effector that it refers to
   std::vector<CubeMark> marks;
 };
 
-/// The rule: touch targets are at least 0.14 of the window's height (of 0.6 of its width, if that
-/// is less). On a 7" touch screen of 1024 x 600 that is 84 px or 12.5 mm, at 1280 x 800 107 px or
-/// 12.7 mm, on one of 1920 x 1080 151 px or 12.2 mm; on larger screens more.
+/// Sizes of a window. Touch targets are at least 0.14 of the window's height (or of 0.6 of its
+/// width, if smaller): 84 px or 12.5 mm on a 7" touch screen of 1024 x 600, 107 px or 12.7 mm at
+/// 1280 x 800, 151 px or 12.2 mm at 1920 x 1080; more on larger screens.
 struct Measures {
   float width, height;       ///< of the window, in pixels
-  float target;              ///< least width and height of what can be tapped
+  float target;              ///< least width and height of a touch target
   float gap, margin;         ///< between controls; around them
-  float small, body, title;  ///< text
-  float text_size;           ///< times as large as usual
+  float small, body, title;  ///< sizes of text
+  float text_size;           ///< relative to the usual size
 
-  /// @param size of text, times as large as usual; targets and their places stay
+  /// @param size of texts, relative to the usual size; targets do not change
   Measures(float width_px, float height_px, float size = 1)
       : width(width_px), height(height_px), text_size(size) {
     const float unit = std::min(height_px, 0.6f * width_px);
@@ -123,27 +123,27 @@ struct Measures {
     title = 0.065f * unit * text_size;
   }
 
-  /// The least that a text of that size may become where there is little room: half of what is
-  /// usual, however large texts are asked for.
+  /// The smallest size for a text where space is short: half of the usual, whatever size is
+  /// requested.
   float least_px(float size_px) const { return 0.5f * size_px / std::max(1.0f, text_size); }
 };
 
 class Taps {
  public:
-  /// A finger's number, or that of the mouse.
+  /// A finger's number, or the mouse's.
   using Pointer = std::int64_t;
   static constexpr Pointer mouse = -1;
 
   void down(Pointer pointer, const std::string& target) { pressed_[pointer] = target; }
 
-  /// @param target what the pointer left the screen over; none: nothing
+  /// @param target the control where the pointer was lifted; none: none
   /// @return whether that was a tap on the target
   bool up(Pointer pointer, const std::optional<std::string>& target) {
     const auto press = pressed_.extract(pointer);
     return target && !press.empty() && press.mapped() == *target;
   }
 
-  /// The page turned: no tap may begin on one page and end on the next.
+  /// The page has turned: a tap must not begin on one page and end on the next.
   void forget() { pressed_.clear(); }
 
   bool holds(std::string_view target) const {

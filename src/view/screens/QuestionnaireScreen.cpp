@@ -1,4 +1,4 @@
-// One question of a questionnaire at a time, each to be skipped at will.
+// Shows one question of a questionnaire at a time; each can be skipped.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,15 +15,15 @@ std::optional<std::string> value_of(const std::map<std::string, std::string>& va
   return found == values.end() ? std::nullopt : std::optional(found->second);
 }
 
-// A number is an answer when its question is left; one that is none yet, or below its range, is not
-// left forward.
-void leave_number(PageBuilder& builder, const FormQuestion& question, const std::string& told,
+// A typed number becomes an answer when its question is left. An incomplete number, or one below
+// its range, blocks the way forward.
+void leave_number(PageBuilder& builder, const FormQuestion& question, const std::string& reported,
                   const std::string& given, bool answered) {
   const std::string number = given.ends_with('.') ? given.substr(0, given.size() - 1) : given;
   for (Control& control : builder.page.controls) {
     if (control.name != "next" && control.name != "back") continue;
     if (control.name == "next") control.enabled = answered || given.empty();
-    if ((answered || given.empty()) && number != told)
+    if ((answered || given.empty()) && number != reported)
       control.entered = builder.entry(question.key, number);
   }
 }
@@ -39,7 +39,8 @@ int first_open_question(const Questionnaire& form, const std::string& prefix,
   const auto& all = form.questions;
   auto open = std::ranges::find_if(all, is_open);
   if (open == all.end() && open != all.begin()) --open;
-  while (open != all.begin() && is_told(*std::prev(open))) --open;  // perhaps not told yet
+  while (open != all.begin() && is_told(*std::prev(open)))
+    --open;  // perhaps not answered to the experimenter yet
   return static_cast<int>(open - all.begin());
 }
 
@@ -50,8 +51,8 @@ void questionnaire_screen(PageBuilder& builder) {
   const int i = std::clamp(builder.memory.part, 0, n - 1);
   const FormQuestion& question = form.questions[static_cast<std::size_t>(i)];
   const std::string key = builder.entry_key(question.key);
-  const std::string told = value_of(builder.memory.entries, key).value_or("");
-  const std::string given = value_of(builder.memory.typed, key).value_or(told);
+  const std::string reported = value_of(builder.memory.entries, key).value_or("");
+  const std::string given = value_of(builder.memory.typed, key).value_or(reported);
   AskedQuestion asked(builder, question, given, AskedIn::form);
   const Rect area = builder.text_area();
   float y = builder.add_lines({fmt::format("{}   {}/{}", form.title, i + 1, n)}, area, area.y,
@@ -65,7 +66,8 @@ void questionnaire_screen(PageBuilder& builder) {
   asked.add_answers({area.x, y, area.width, area.bottom() - y});
   const bool answered = question.kind == QuestionKind::text || takes_answer(question, given);
   add_turning(builder, i, n, answered);
-  if (question.kind == QuestionKind::number) leave_number(builder, question, told, given, answered);
+  if (question.kind == QuestionKind::number)
+    leave_number(builder, question, reported, given, answered);
 }
 
 }  // namespace heft

@@ -101,14 +101,14 @@ Touch touch_of(TouchKind kind) {
   return touch;
 }
 
-// Whoever is told to try again reads that first, as if it were a page of its own.
+// The sentence "try again" is read first, like a separate page.
 Turn Screens::turn_to(const ScreenState& state, bool cubes_shown) const {
   const bool again = state.try_again && state.n_choices != state_.n_choices;
   if (!shown_ || again || state.page() != state_.page()) return Turn::page;
   return cubes_shown && !memory_.cubes_shown ? Turn::cubes : Turn::none;
 }
 
-// A page that was paused comes back as it was left.
+// A paused page returns in its former state.
 void Screens::remember(const ScreenState& state) {
   if (state.page() == state_.page()) return;
   if (state.screen == Screen::paused && shown_) {
@@ -132,7 +132,7 @@ void Screens::remember(const ScreenState& state) {
 }
 
 Turn Screens::show(const ScreenState& state, bool cubes_shown) {
-  const bool cubes = cubes_shown && !state.faded;  // those that fade are the last trial's
+  const bool cubes = cubes_shown && !state.faded;  // fading cubes belong to the last trial
   const Turn turn = turn_to(state, cubes);
   if (turn == Turn::page) remember(state);
   memory_.cubes_shown = cubes;

@@ -1,5 +1,5 @@
-// The participant's screens: which page a session's ScreenState is, and what a tap on it means.
-// Knows nothing of windows and events; WindowView shows its pages.
+// The participant's screens: the page for a session's ScreenState, and the meaning of a tap on it.
+// Independent of windows and events; WindowView displays the pages.
 #pragma once
 
 #include <limits>
@@ -13,11 +13,11 @@
 
 namespace heft {
 
-/// What became another with what the session offers.
+/// What has changed with the session's state.
 enum class Turn {
   none,
-  cubes,  ///< they appeared, and with them what can be answered
-  page    ///< what a person was about to tap is gone
+  cubes,  ///< they appeared, so that answers are possible
+  page    ///< a new page: the controls of the last one are gone
 };
 
 class Screens {
@@ -25,17 +25,17 @@ class Screens {
   Screens(ScreenTexts texts, bool left_handed)
       : texts_(std::move(texts)), left_handed_(left_handed) {}
 
-  /// Takes what the session offers now.
-  /// @param cubes_shown whether the scene has cubes; without, nothing can be answered
+  /// Sets the session's state.
+  /// @param cubes_shown whether the scene has cubes, without which no answer is possible
   Turn show(const ScreenState& state, bool cubes_shown);
 
-  /// Empty until something is shown.
-  /// @param up_s how long it has been on the display, as it is
+  /// The current page; empty until a state is set.
+  /// @param up_s how long it has been displayed unchanged
   Page page(const Typeface& typeface, const Measures& measures,
             double up_s = std::numeric_limits<double>::infinity()) const;
   PageId page_id() const { return state_.page(); }
 
-  /// What the session must know of a tap on a control of the page; none: it changed this page only.
+  /// The touch to report for a tap on a control of the page; none: the tap only changed the page.
   std::optional<Touch> tapped(const Control& control);
 
   const ScreenTexts& texts() const { return texts_; }
@@ -44,7 +44,7 @@ class Screens {
   Turn turn_to(const ScreenState& state, bool cubes_shown) const;
   void remember(const ScreenState& state);
 
-  /// What a page that was paused remembers.
+  /// The state of a paused page.
   struct Paused {
     PageId page;
     ScreenMemory memory;

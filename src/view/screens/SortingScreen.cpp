@@ -15,12 +15,12 @@ bool is_rank(std::string_view label) {
   return std::isdigit(static_cast<unsigned char>(label.front())) != 0;
 }
 
-// A label as it stands on a cube; ranks are numbers in every language.
+// A label's text on a cube; ranks are numbers in every language.
 std::string label_words(const PageBuilder& builder, std::string_view label) {
   return is_rank(label) ? std::string(label) : builder.text("trial_sorting", std::string(label));
 }
 
-// What a sorting trial asks, and of ranks which end is which.
+// The question of a sorting trial; for ranks also which end is which.
 std::string sorting_question(const PageBuilder& builder) {
   const std::string question = builder.text("trial_sorting", "question");
   const auto labels = Sorting::labels_for(builder.state.n_slots);
@@ -35,15 +35,15 @@ bool all_labeled(const PageBuilder& builder, const Labels& given) {
              given, [](const auto& label) { return label.has_value(); })) == builder.state.n_slots;
 }
 
-// The place of the cube that a label is given to; empty: to none. On the labels' buttons, which
-// have the room for it: three labels beside each other would be too small to read.
+// The place of the cube that has a label; empty: none has. Shown on the labels' buttons, because
+// three labels side by side would be too small to read.
 std::string labeled_place(const PageBuilder& builder, const Labels& given, const Label& label) {
   const auto found = std::ranges::find(given, label);
   if (found == given.end()) return {};
   return slot_words(builder, static_cast<int>(found - given.begin()) + 1, builder.state.n_slots);
 }
 
-// Gives the selected cube a label, or takes back the one it has.
+// Gives the selected cube a label, or removes its label.
 void add_label(PageBuilder& builder, const Labels& given, const Label& label, const Rect& area,
                char key) {
   const int slot = builder.memory.selected.value_or(0);
@@ -66,7 +66,7 @@ void mark_cubes(PageBuilder& builder, const Labels& given) {
   }
 }
 
-// The words each in a row of its own, where there is room for them; ranks like the cubes.
+// Each label in a row of its button if there is space; ranks like the cubes.
 void add_labels(PageBuilder& builder, const Labels& given, const Rect& first_row) {
   const auto labels = Sorting::labels_for(builder.state.n_slots);
   const int n = builder.state.n_slots, n_beside = n <= 3 ? 1 : in_a_row(n);

@@ -14,7 +14,7 @@ namespace heft {
 namespace {
 using Lines = std::vector<std::string>;
 
-// As many lines a part as fit below each other; no part begins with an empty line.
+// Divides lines into parts that fit; no part begins with an empty line.
 std::vector<Lines> in_parts(const PageBuilder& builder, const Lines& lines, float height_px) {
   std::vector<Lines> parts(1);
   for (const std::string& line : lines) {
@@ -32,7 +32,7 @@ void add_back(PageBuilder& builder) {
                      TurnPart{-1}, key_backspace);
 }
 
-// Writes the title and the text's part in the middle of the space above the buttons.
+// Writes the title and a part of the text in the middle of the space above the buttons.
 // @return whether it was the last part
 // @param n_rows of buttons below it
 bool add_text(PageBuilder& builder, const std::string& page, int wished_part, int n_rows = 1) {
@@ -67,8 +67,8 @@ void text_screen(PageBuilder& builder, const std::string& page, const std::strin
     add_next(builder, next_word);
 }
 
-/// A question and the values that an answer can have: a touch's key and value, whatever the
-/// language. The words are at KEY and KEY_VALUE of the page.
+/// A question and its possible answers: a touch's key and value, the same in every language. The
+/// texts have the keys KEY and KEY_VALUE of the page.
 struct Question {
   std::string_view key;
   std::vector<std::string_view> values;
@@ -92,7 +92,7 @@ Touch entry(std::string_view key, std::string_view value) {
   return touch;
 }
 
-// Above its choices, as large as they leave room for.
+// Writes the question above its choices, at a size that leaves space for them.
 // @return the bottom of the question
 float add_question(PageBuilder& builder, const std::string& page, const Question& question,
                    const std::string& progress) {
@@ -147,8 +147,8 @@ void form_screen(PageBuilder& builder, const std::string& page,
   add_turning(builder, i, n, answered);
 }
 
-// Of the last part of what somebody agrees to, as long as anybody needs to look it over: a letter
-// in 20 ms is 10 words a second, and a glance takes 2 s.
+// Minimum time on the last part of the consent text: 20 ms per letter, which is 10 words a second,
+// and at least 2 s.
 double reading_time_s(const PageBuilder& builder) {
   constexpr double glance_s = 2, letter_s = 0.02;
   std::size_t n = 0;
@@ -167,8 +167,8 @@ void add_turning(PageBuilder& builder, int i, int n, bool answered) {
   if (i > 0) add_back(builder);
 }
 
-// Who reads on does not tap where others agree. To decline takes no reading, nor does coming back
-// from the question whether that was meant.
+// "More" and "agree" are at different places, so that reading on cannot agree. Declining needs no
+// reading time, nor does the confirmation.
 void consent_screen(PageBuilder& builder) {
   if (!add_text(builder, "consent", builder.memory.part, 2)) return;
   const bool has_read =

@@ -22,9 +22,8 @@ Effect slid_to(const Slide& slide, float fraction) {
 }
 }  // namespace
 
-// After a trial the gap settles, and answers have a time of their own from when they count: the
-// engine keeps it, and logs what comes earlier. So the page takes presses as soon as it can be
-// seen.
+// The gap after a trial separates taps, and the engine logs answers that come too early. Hence a
+// trial's page takes presses as soon as it is visible.
 void TouchScreen::show(const ScreenState& state, bool cubes_shown) {
   const bool after_a_trial = screens_.page_id().screen == Screen::trial &&
                              state.screen == Screen::trial && !state.try_again;

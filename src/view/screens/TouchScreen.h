@@ -1,6 +1,6 @@
-// A page under fingers: which touches of it count, and what they mean. A tap counts if it began on
-// the page that it answers, after that page was on the display; the second tap of two does nothing.
-// Knows nothing of windows: WindowView gives it the events, with their times.
+// A page under fingers: which touches count, and their meaning. A tap counts if it began on the
+// page that it answers, after that page was displayed; the second tap of a double tap is ignored.
+// Independent of windows: WindowView passes the events with their times.
 #pragma once
 
 #include <functional>
@@ -14,45 +14,44 @@
 
 namespace heft {
 
-/// So long nothing more is taken of a page that was turned, of a part or question that was turned,
-/// or of a control that was tapped. The taps of a double tap are at most 0.6 s apart.
+/// Taps are ignored for this long after a page, part or question has turned, and on a control that
+/// was just tapped. The taps of a double tap are at most 0.6 s apart.
 inline constexpr double settle_s = 0.7;
 
 class TouchScreen {
  public:
-  /// The cube in the scene that a finger at this pixel means.
+  /// The cube in the scene that a finger at this pixel touches.
   using CubeAt = std::function<std::optional<int>(float x, float y)>;
 
-  /// @param takes_keys as ViewSetup
+  /// @param takes_keys see ViewSetup
   TouchScreen(ScreenTexts texts, bool left_handed, bool takes_keys, CubeAt cube_at)
       : screens_(std::move(texts), left_handed),
         cube_at_(std::move(cube_at)),
         takes_keys_(takes_keys) {}
 
-  /// What the session offers now, and whether the scene has cubes. It counts once it is presented.
+  /// Sets the session's state and whether the scene has cubes. Takes effect once presented.
   void show(const ScreenState& state, bool cubes_shown);
-  /// Makes the page as it is at a time. @param hint over the scene
+  /// Lays out the page for a time. @param hint over the scene
   void lay_out(const Typeface& typeface, const Measures& measures, double now_s,
                const std::string& hint = {});
-  /// The page as laid out last is on the display.
+  /// Reports that the last layout is on the display.
   void presented(double t_s);
 
-  // Of a finger or the mouse, in pixels; each returns whether the page may look different now.
+  // Events of a finger or the mouse, in pixels; each returns whether the page may have changed.
   bool down(Taps::Pointer pointer, float x, float y, double t_s);
   bool up(Taps::Pointer pointer, float x, float y, double t_s);
   bool key(char key, double t_s);
 
-  /// What the session must know, in order; forgets it.
+  /// Returns and clears the touches to report, in order.
   std::vector<Touch> take() { return std::exchange(touches_, {}); }
   bool has_touches() const { return !touches_.empty(); }
-  /// Something that is on no page: the window was closed.
+  /// Adds a touch that is on no page: the window was closed.
   void report(Touch touch, double t_s);
 
   const Page& page() const { return page_; }
   const ScreenTexts& texts() const { return screens_.texts(); }
   bool holds(const std::string& control) const { return taps_.holds(control); }
-  /// The name of the enabled control that a tap at this pixel is for; a cube in the scene goes by
-  /// its button's name.
+  /// The name of the enabled control at this pixel; a cube in the scene has its button's name.
   std::optional<std::string> target_at(float x, float y) const;
 
  private:
@@ -73,11 +72,11 @@ class TouchScreen {
   Page page_;
   Taps taps_;
   std::vector<Touch> touches_;
-  double settles_s_ = 0;          // once it is presented
-  bool presented_ = false;        // as it is now
-  double since_s_ = 0;            // that the part was presented
-  double live_from_s_ = 0;        // presses before do not count
-  std::optional<Tapped> tapped_;  // last
+  double settles_s_ = 0;          // after its presentation
+  bool presented_ = false;        // the current page
+  double since_s_ = 0;            // presentation of the part
+  double live_from_s_ = 0;        // earlier presses do not count
+  std::optional<Tapped> tapped_;  // the last tap
 };
 
 }  // namespace heft

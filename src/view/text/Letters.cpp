@@ -20,8 +20,8 @@ struct Freed {
 template <typename T>
 using Object = std::unique_ptr<T, Freed<g_object_unref>>;
 
-// The typeface that is taken first. Its letters reach from 0.928 em above the line to 0.236 em
-// below; the lines of all fonts stand alike.
+// The preferred typeface. Its letters extend from 0.928 em above the baseline to 0.236 em below;
+// lines of all fonts are aligned to it.
 constexpr const char* family = "DejaVu Sans";
 constexpr double above_em = 0.928, below_em = 0.236;
 
@@ -37,7 +37,7 @@ PangoDirection pango(Direction direction) {
   return direction == Direction::right_to_left ? PANGO_DIRECTION_RTL : PANGO_DIRECTION_LTR;
 }
 
-// As wide at one size as at another, so that what is measured is what is drawn.
+// Widths are proportional to size, so that measured and drawn texts agree.
 Object<PangoContext> context_of(PangoFontMap* fonts, const std::string& language) {
   Object<PangoContext> context(pango_font_map_create_context(fonts));
   pango_context_set_language(context.get(), pango_language_from_string(language.c_str()));
@@ -51,7 +51,7 @@ Object<PangoContext> context_of(PangoFontMap* fonts, const std::string& language
   return context;
 }
 
-// What has no ink of its own: spaces, and marks that join or direct letters.
+// Characters without ink: spaces, and marks that join or direct letters.
 bool is_unseen(gunichar c) {
   if (g_unichar_isspace(c)) return true;
   const GUnicodeType type = g_unichar_type(c);
@@ -96,7 +96,7 @@ class PangoLetters final : public Letters {
   }
 
   Ink ink(const WrittenLine& line) const override {
-    constexpr int around_px = 1;  // what is smoothed reaches beyond
+    constexpr int around_px = 1;  // smoothing extends beyond
     const Object<PangoLayout> drawn = layout(line);
     PangoRectangle inked;
     pango_layout_get_pixel_extents(drawn.get(), &inked, nullptr);

@@ -1,5 +1,4 @@
-// Where on a page words stand that are made to fit: on controls, on the notice over the scene; and
-// the photodiode's patch.
+// Places of fitted texts on a page: on controls and over the scene; and the photodiode's patch.
 #pragma once
 
 #include <string>
@@ -9,15 +8,15 @@
 
 namespace heft {
 
-/// A control's words and the note below them, made to fit their places on it.
+/// A control's text and the note below it, fitted to their areas.
 struct ControlWords {
   FittedText text, note;
-  Rect text_area, note_area;  ///< the note's is empty where there is none
+  Rect text_area, note_area;  ///< the note's is empty without a note
 };
 
 ControlWords words_on(const Control& control, const Typeface& typeface, const Measures& measures);
 
-/// A notice or hint over the scene, made to fit, and its plate.
+/// A fitted notice or hint over the scene, and its plate.
 struct NoticeWords {
   FittedText text;
   Rect area;
@@ -29,10 +28,10 @@ NoticeWords words_of_notice(const std::string& notice, const Rect& scene, const 
 /// A square in a lower corner for a photodiode, white or black.
 struct Patch {
   bool white = false;
-  bool left = true;  ///< of the screen's sides
+  bool left = true;  ///< at the left side of the screen
 };
 
-/// Twice the margin wide: 4 to 5 mm on a 7" screen; no control reaches into it.
+/// Twice the margin wide: 4 to 5 mm on a 7" screen; no control overlaps it.
 Rect place_of(const Patch& patch, const Measures& measures);
 
 }  // namespace heft

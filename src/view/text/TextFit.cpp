@@ -11,9 +11,9 @@
 namespace heft {
 
 namespace {
-constexpr float least_size = 0.7f;  // of what texts are written in elsewhere
+constexpr float least_size = 0.7f;  // relative to the usual size of texts
 
-// Every screen that has words of its own, as full of them as it gets.
+// Every screen with texts, as full as it can be.
 std::vector<ScreenState> states(const ScreenTexts& texts) {
   std::vector<ScreenState> all;
   for (std::size_t i = 0; i < EnumNames<Screen>::names.size(); ++i)
@@ -22,7 +22,7 @@ std::vector<ScreenState> states(const ScreenTexts& texts) {
                                                     screen != Screen::questionnaire)
       all.push_back({.screen = screen});
   for (const Task task : words_of<Task>()) {
-    if (!texts.pages.contains(text_page(Screen::trial, task))) continue;  // not of every task
+    if (!texts.pages.contains(text_page(Screen::trial, task))) continue;  // no texts for this task
     all.push_back({.screen = Screen::instructions, .task = task});
     for (ScreenState trial : fullest_screens(task)) {
       trial.screen = Screen::trial;
@@ -53,7 +53,7 @@ class FitCheck {
   std::vector<std::string> found;
 
  private:
-  // @return whether it turned to another part
+  // @return whether another part was shown
   bool look_at(const Page& page) {
     for (const Control& control : page.controls) {
       const ControlWords words = words_on(control, typeface_, measures_);
@@ -76,9 +76,9 @@ class FitCheck {
     });
     const float height_px = static_cast<float>(words.lines.size()) * words.size_px;
     if (wide || height_px > area.height)
-      tell(text, fmt::format("does not fit {}", where));
+      add_sentence(text, fmt::format("does not fit {}", where));
     else if (words.size_px < least_size * measures_.body)
-      tell(text, fmt::format("fits {} only in small letters", where));
+      add_sentence(text, fmt::format("fits {} only in small letters", where));
   }
 
   void look_at(const TextLine& line, const Page& page) {
@@ -89,12 +89,12 @@ class FitCheck {
     const bool covered = std::ranges::any_of(
         page.controls, [&](const Control& control) { return control.area.overlaps(area); });
     if (!inside || covered || (page.scene && page.scene->overlaps(area)))
-      tell(line.text, "does not fit its place");
+      add_sentence(line.text, "does not fit its place");
     else if (line.size_px < least_size * measures_.body)
-      tell(line.text, "fits its place only in small letters");
+      add_sentence(line.text, "fits its place only in small letters");
   }
 
-  void tell(const std::string& text, const std::string& what) {
+  void add_sentence(const std::string& text, const std::string& what) {
     std::string sentence = fmt::format("{}: \"{}\" {}", name_, text, what);
     if (std::ranges::find(found, sentence) == found.end()) found.push_back(std::move(sentence));
   }

@@ -1,4 +1,4 @@
-// Whether the participant's texts fit their places: looks at every screen without a window.
+// Checks that the participant's texts fit their places, on every screen, without a window.
 #pragma once
 
 #include <string>
@@ -9,11 +9,11 @@
 
 namespace heft {
 
-/// The smallest screen that people are asked on: 1024 x 600, of 7".
+/// The smallest supported screen: 1024 x 600, 7".
 Measures smallest_screen(double text_size = 1);
 
-/// A sentence for each text that would be written much smaller than the rest, or that sticks out of
-/// its place. Characters that no installed font has are as wide as the boxes that stand for them.
+/// One sentence for each text that would be much smaller than the others, or would extend beyond
+/// its place. Characters that no installed font has count as wide as their replacement boxes.
 /// @return each sentence begins with the name of its page and ": "
 std::vector<std::string> texts_that_do_not_fit(const ScreenTexts& texts, const Measures& measures);
 

@@ -13,7 +13,7 @@ namespace heft {
 namespace {
 constexpr std::size_t most_remembered = 4096;
 
-// In single spaces, and without line ends.
+// With single spaces instead of white space and line ends.
 std::string in_one_line(const std::string& paragraph) {
   std::istringstream stream(paragraph);
   std::string line;
@@ -30,7 +30,7 @@ std::vector<std::string> paragraphs_of(const std::string& text) {
   return paragraphs;
 }
 
-// What most of the texts' own words begin with: one may begin with a name from elsewhere.
+// The direction in which most texts begin: one may begin with a foreign name.
 Direction direction_of(const ScreenTexts& texts, const Letters& letters) {
   int balance = 0;
   for (const auto& [page, keys] : texts.pages)
@@ -42,11 +42,11 @@ Direction direction_of(const ScreenTexts& texts, const Letters& letters) {
 
 std::vector<LackingCharacter> lacking(const ScreenTexts& texts, const Letters& letters) {
   std::vector<LackingCharacter> all;
-  std::set<char32_t> told;
+  std::set<char32_t> reported;
   for (const auto& [page, keys] : texts.pages)
     for (const auto& [key, text] : keys)
       for (const char32_t code : letters.without_font(text))
-        if (told.insert(code).second) all.push_back({code, page + '.' + key});
+        if (reported.insert(code).second) all.push_back({code, page + '.' + key});
   return all;
 }
 
@@ -124,8 +124,8 @@ FittedText Typeface::fitted(const std::string& text, float size_px, float width,
 
 std::string without_font(const std::vector<LackingCharacter>& characters) {
   return fmt::format(
-      "characters that no installed font has: {}; install a font that has them (Debian: apt-get "
-      "install fonts-dejavu-core, fonts-noto-core or fonts-noto-cjk), or write them in another way",
+      "characters that no installed font has: {}; install a font with them (Debian: apt-get "
+      "install fonts-dejavu-core, fonts-noto-core or fonts-noto-cjk), or use other characters",
       listed(characters));
 }
 
