@@ -11,13 +11,14 @@ namespace {
 using Corners = std::array<Eigen::Vector2d, 4>;
 
 constexpr double least_expected_edge_px = 9;
-constexpr double most_dense_rms_px = 0.5;  // of a tag whose cells are looked at
-constexpr double believed_variance = 2;    // of a pose by cells, against one by borders
-constexpr double least_agreement = 0.85;   // of the data cells of a tag that no detector read
-// While a body shows no more, what fingers leave of another tag tells much: its tilt and depth.
+constexpr double most_dense_rms_px = 0.5;  // of a tag that is aligned by its cells
+constexpr double believed_variance = 2;    // of a pose by cells, relative to one by borders
+constexpr double least_agreement =
+    0.85;  // of the data cells of a tag that the detector did not read
+// With so few tags, partly covered ones add much information on tilt and depth.
 constexpr std::size_t few_tags = 3;
 
-// Adds the time that it takes.
+// Adds the duration of the work.
 template <typename Work>
 auto timed(double& sum_s, const Work& work) {
   const double start_s = monotonic_s();
@@ -26,7 +27,7 @@ auto timed(double& sum_s, const Work& work) {
   return result;
 }
 
-// Seen from its front, with all corners well in the picture and edges long enough to measure.
+// Seen from its front, with all corners well inside the picture and edges long enough to measure.
 bool measurable(const Intrinsics& camera, const Corners& c) {
   constexpr double margin_px = 2;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -58,7 +59,7 @@ double place_variance_m2(const BodyFit& fit) {
 
 BiasPrior prior_for(const TrackerSettings& settings, BiasPrior prior) {
   if (!settings.remove_bias) return {0, 0};
-  // The detector's own corners are off by about half a pixel where ours are by a tenth.
+  // The detector's corners are accurate to half a pixel, measured edges to a tenth.
   if (!settings.refine_edges) prior.sd_px *= 5;
   return prior;
 }
@@ -117,11 +118,11 @@ BodyFit BodyFinder::aligned(const Image& gray, const BodyFit& found, const BiasP
   return timed(times.pose_s, [&] {
     auto fit = align_densely(gray, camera_, tags, found, prior_for(settings_, prior), how_.curve,
                              how_.noise, smear, rows);
-    // Cells that are half hidden may leave more open than their borders. Those in uneven light do,
-    // too, for borders do not know what it does to them: some more is no reason against cells.
+    // Cells may give a larger variance than borders: if they are half hidden, or because they model
+    // uneven light, which borders ignore. A moderately larger one is accepted.
     if (!fit || place_variance_m2(*fit) > believed_variance * place_variance_m2(found))
       return found;
-    // Where cells and borders tell different poses, one of them is wrong.
+    // If cells and borders give different poses, one of them is wrong.
     for (const TagObservation& tag : used)
       for (const Eigen::Vector3d& corner_m : tag.corners_m)
         fit->spread_m2 = std::max(
@@ -148,7 +149,7 @@ std::optional<BodyFit> BodyFinder::find_again(const Image& gray, const Pose& exp
   const double blur_px = how_.blur_px;
   const auto fit = seen_again(gray, expected, enough, prior, times);
   if (fit && fit->quality >= enough.quality) return fit;
-  how_.blur_px = blur_px;  // as if nobody had looked
+  how_.blur_px = blur_px;  // without knowledge of the blur
   return std::nullopt;
 }
 
@@ -188,7 +189,7 @@ std::vector<TagObservation> BodyFinder::measure_detected(const Image& gray,
       done[index] = good;
     }
   }
-  // Tags whose edges can't be measured (a finger on them, no white margin) still tell roughly.
+  // Tags whose edges cannot be measured (a finger on them, no white margin) give a rough pose.
   return tags.empty() ? fallback : tags;
 }
 
@@ -224,7 +225,8 @@ MeasuredTag BodyFinder::measure(const Image& gray, std::size_t tag, const Corner
                                  : measure_tag(gray, camera_, patterns_[tag], corners_px, how_);
   if (seen.quality < settings_.least_quality) return seen;
   for (const FittedEdge& edge : seen.edges) tone_.add(edge, patterns_[tag].bright_outside ? 1 : -1);
-  // Clipped edges look more blurred than they are: learning from them, the blur would grow.
+  // Clipped edges look more blurred than they are; learning from them would increase the blur
+  // further.
   if (seen.saturated > 0) return seen;
   double sum = 0;
   for (const FittedEdge& edge : seen.edges) sum += edge.blur_px;

@@ -1,6 +1,6 @@
-// One body in a picture: which of the detected tags are its own, what their edges say, and which of
-// its other tags can be found where its pose puts them (small or oblique tags that no detector
-// reads, but whose edges can be measured).
+// Finds one body in a picture: selects its detected tags, measures their edges, and finds further
+// tags where its pose puts them (small or oblique tags that the detector does not read, but whose
+// edges can be measured).
 #pragma once
 
 #include <optional>
@@ -16,17 +16,17 @@
 namespace heft {
 
 struct TrackerSettings {
-  /// Detection on a picture smaller by this factor; 0: 1 up to 800 pixels wide, 1.5 above.
+  /// Detection on a picture reduced by this factor; 0: 1 up to 800 pixels wide, 1.5 above.
   double decimate = 0;
-  bool refine_edges = true;  ///< false: the detector's own corners
+  bool refine_edges = true;  ///< false: uses the detector's corners
   bool inner_edges = true;   ///< the effector's tags are aligned cell by cell
-  bool remove_bias = true;   ///< the edge bias that blur and the tone curve cause
-  /// Look where things were in the last picture, and everywhere only when they are not there.
+  bool remove_bias = true;   ///< corrects the edge bias caused by blur and the tone curve
+  /// Search near the last poses first, and everywhere only if that fails.
   bool region_of_interest = true;
   double least_quality = 0.85;  ///< of a tag's edges, 0...1
 };
 
-/// Where the time of a picture went, seconds.
+/// Processing times of a picture, seconds.
 struct TrackerTimes {
   double detect_s = 0, refine_s = 0, pose_s = 0;
 };
@@ -39,43 +39,41 @@ class BodyFinder {
 
   const MarkerBody& body() const { return body_; }
 
-  /// @param noise of the next picture, gray levels: what noise does to edges is no fault of theirs
+  /// @param noise of the next picture, gray levels, which lowers the quality of edges
   void expect(double noise, const ToneCurve& curve) {
     how_.noise = noise;
     how_.curve = curve;
   }
-  /// What the edges of the last find told of the camera's tone curve.
+  /// Information on the camera's tone curve from the edges of the last find.
   const PictureTone& tone() const { return tone_; }
 
-  /// From detected tags. @param expected where the body may be; decides only what the picture can't
+  /// From detected tags. @param expected pose of the body; used only to resolve ambiguities
   std::optional<BodyFit> find(const Image& gray, const std::vector<DetectedTag>& detected,
                               const std::optional<Pose>& expected, const BiasPrior& prior,
                               TrackerTimes& times);
 
-  /// What is enough to go on from where a body is expected.
+  /// Requirements for continuing from an expected pose.
   struct Enough {
-    bool still = true;  ///< tags that were seen last are taken to be as blurred as they were
+    bool still = true;  ///< the last tags are assumed to have the same blur
     int tags = 1;
     double quality = 0;
   };
-  /// From where it is expected alone, within half a cell; none, and no traces, unless that is
-  /// enough. Cells must be its tags'.
+  /// From the expected pose alone, within half a cell; none, without side effects, unless the
+  /// requirements are met. Cells must match its tags'.
   std::optional<BodyFit> find_again(const Image& gray, const Pose& expected, const Enough& enough,
                                     const BiasPrior& prior, TrackerTimes& times);
 
-  /// Of what find saw last, the mean blur of its upright edges and of its level ones, px; zero
-  /// where nothing was.
+  /// Mean blur of the upright and of the level edges of the last find, px; zero if none.
   Eigen::Array2d blur_px() const;
 
-  /// What find saw last, cell by cell; `found` where that does not help.
-  /// @param rolls velocity of the body's origin, in the camera's frame, before a rolling shutter
+  /// Aligns the tags of the last find cell by cell; returns `found` if that does not help.
+  /// @param rolls velocity of the body's origin, in the camera's frame, under a rolling shutter
   BodyFit aligned(const Image& gray, const BodyFit& found, const BiasPrior& prior,
                   const std::optional<Smear>& smear, const std::optional<Velocity>& rolls,
                   TrackerTimes& times) const;
 
-  /// What find saw last, once more: its rows as a rolling shutter read them while the body moved.
-  /// @param found what came of it so far  @param velocity of the body's origin, in the camera's
-  /// frame
+  /// Solves the last find again with its rows at the times that a rolling shutter reads them.
+  /// @param found the result so far  @param velocity of the body's origin, in the camera's frame
   BodyFit solve_moving(const BodyFit& found, const Velocity& velocity, const BiasPrior& prior,
                        TrackerTimes& times) const;
 
@@ -85,15 +83,15 @@ class BodyFinder {
                                                std::vector<bool>& done);
   std::optional<BodyFit> seen_again(const Image& gray, const Pose& expected, const Enough& enough,
                                     const BiasPrior& prior, TrackerTimes& times);
-  /// A fit by some of the tags, with those that can be found where it puts them.
+  /// Extends a fit by tags that can be found where it puts them.
   std::optional<BodyFit> with_others(const Image& gray, const BodyFit& fit, std::vector<bool>& done,
                                      const BiasPrior& bias, TrackerTimes& times);
-  /// @param covered_too tags of which two edges are clear  @param before what was seen last, if
-  /// that is to be gone on from
+  /// @param covered_too also tags with only two clear edges  @param before the last observations,
+  /// to continue from
   std::vector<TagObservation> measure_expected(const Image& gray, const Pose& camera_from_body,
                                                std::vector<bool>& done, bool covered_too,
                                                std::span<const TagObservation> before = {});
-  /// @param before what was seen of it last, where that is to be gone on from
+  /// @param before the last observation of the tag, to continue from
   MeasuredTag measure(const Image& gray, std::size_t tag,
                       const std::array<Eigen::Vector2d, 4>& corners_px,
                       const TagObservation* before = nullptr);

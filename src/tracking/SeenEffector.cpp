@@ -5,12 +5,12 @@
 namespace heft {
 
 namespace {
-constexpr double longest_gap_s = 0.25;  // Drive takes a longer one for a jump, too
-// What no hand with a light box in it does.
+constexpr double longest_gap_s = 0.25;  // Drive treats a longer one as a jump, too
+// Beyond the speed of a hand with a light box.
 constexpr double fastest_m_s = 5, fastest_rad_s = 30;
 constexpr double jitter_m = 0.01, jitter_rad = 0.2;
-// Before a rolling shutter the first pose of all is a mean over rows: a velocity from it is no
-// trend's beginning.
+// Under a rolling shutter the very first pose is a mean over rows, and no velocity can be derived
+// from it.
 constexpr int poses_of_a_trend = 3;
 }  // namespace
 

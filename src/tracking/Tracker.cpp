@@ -18,30 +18,30 @@ namespace heft {
 namespace {
 constexpr double usual_blur_px = 0.65;
 constexpr double still_m_s = 0.1, still_rad_s = 1;
-constexpr double smeared = 1.15;  // times the board's blur
+constexpr double smeared = 1.15;  // relative to the board's blur
 constexpr int board_edge_pixels = 120, effector_edge_pixels = 500;
 constexpr BiasPrior unknown_bias{0, 0.1};
-// A board tells the bias no better than to this: its print and the lens' blur are not quite what
-// the model of edges takes them for.
+// Limit of the accuracy of the board's edge bias, because its print and the lens's blur differ
+// slightly from the model of edges.
 constexpr double least_bias_sd_px = 0.006;
-// The effector's edges are in another light and at another slant than the board's.
+// The effector's edges have another light and slant than the board's.
 constexpr double bias_differs_px = 0.005, bias_differs_relative = 0.15;
 constexpr int tags_that_tell_bias = 4;
 
-// An effector that was not found in so many pictures is out of view: from then on it is looked for
-// in one half of the picture at a time.
+// After so many pictures without the effector it is out of view, and only half of each picture is
+// searched for it.
 constexpr int pictures_searched_whole = 3;
-// While there is no board, every so many pictures are searched for it as closely as can be, which
-// takes several times as long.
+// Without a board, every so many pictures are searched for it thoroughly, which takes several times
+// as long.
 constexpr int pictures_without_a_close_search = 4;
 
-// Of an effector whose tags were not read: what its edges leave more open, such as a slanted tag
-// half under fingers, is read.
+// Tags are read again if the pose from edges alone is less certain, for example with a slanted tag
+// half under fingers.
 constexpr double sure_quality = 0.5;
 
-// What the board's bias tells about the effector's. A bias is there where the camera's tone curve
-// is not sRGB; most cameras' is, and then what the board seems to have is noise, which would push a
-// single tag away or closer by tenths of a millimeter.
+// Transfers the board's edge bias to the effector. A bias exists if the camera's tone curve is not
+// sRGB. Most cameras' is, and then the board's estimated bias is noise, which would move a single
+// tag by tenths of a millimeter in depth.
 BiasPrior bias_of_effector(const BodyFit& board) {
   if (board.n_tags < tags_that_tell_bias) return unknown_bias;
   const double sd_px = std::hypot(board.bias_sd_px, least_bias_sd_px);
@@ -49,7 +49,7 @@ BiasPrior bias_of_effector(const BodyFit& board) {
   return {mean_px, bias_differs_px + bias_differs_relative * std::abs(mean_px)};
 }
 
-// The part of the picture in which a body will be, with room for a hand's change of mind.
+// The part of the picture where a body is expected, with a margin for changes of motion.
 Region region_around(const Intrinsics& camera, const MarkerBody& body,
                      const Pose& camera_from_body) {
   Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
@@ -67,20 +67,20 @@ Region region_around(const Intrinsics& camera, const MarkerBody& body,
           bound(high.y() - low.y() + 2 * margin)};
 }
 
-// Left or right; both reach beyond the middle, so that no tag falls between them.
+// Left or right; both extend beyond the middle, so that each tag is completely in one of them.
 Region half_of(const Image& gray, bool left) {
   const int width_px = gray.width * 13 / 20;
   return {left ? 0 : gray.width - width_px, 0, width_px, gray.height};
 }
 
 void require_own_tags(const MarkerBody& board, const MarkerBody& effector) {
-  if (board.tags.empty()) throw Error("the board has no tags, so nothing says where the table is");
+  if (board.tags.empty()) throw Error("the board has no tags, so the table cannot be located");
   if (board.family != effector.family) return;
   for (const Tag& tag : effector.tags)
     if (std::ranges::find(board.tags, tag.id, &Tag::id) != board.tags.end())
       throw Error(
           fmt::format("tag {} of {} is on the board and on the effector; give the effector "
-                      "tags of its own",
+                      "different tags",
                       tag.id, board.family));
 }
 }  // namespace
@@ -105,7 +105,7 @@ std::vector<DetectedTag> Tracker::detect(TagDetector& detector, const Region& re
                                          EdgeSearch search) {
   const double start_s = monotonic_s();
   std::vector<DetectedTag> tags = detector.detect(gray_, region, search);
-  // Of two tags with one id the one that was read more clearly counts.
+  // Of two tags with one id the one that was read more clearly is used.
   std::ranges::sort(tags, std::greater{}, &DetectedTag::decision_margin);
   std::ranges::stable_sort(tags, {}, &DetectedTag::id);
   const auto same_id = [](const DetectedTag& a, const DetectedTag& b) { return a.id == b.id; };
@@ -114,7 +114,7 @@ std::vector<DetectedTag> Tracker::detect(TagDetector& detector, const Region& re
   return tags;
 }
 
-// Everywhere, once a picture.
+// In the whole picture, once per picture.
 const std::vector<DetectedTag>& Tracker::all_board_tags() {
   if (!board_family_tags_) board_family_tags_ = detect(detectors_.front(), whole(gray_));
   return *board_family_tags_;
@@ -132,12 +132,13 @@ std::optional<BodyFit> Tracker::find_board() {
     const int least_tags = std::max(1, (last_n_board_tags_ + 1) / 2);
     const auto fit =
         board_.find_again(gray_, *last_board_, {.tags = least_tags}, unknown_bias, result_.times);
-    // A single tag tells too little to go on without reading it.
+    // A single tag must be read to be certain.
     if (fit && fit->n_tags > 1) return fit;
   }
   const auto fit = board_.find(gray_, all_board_tags(), last_board_, unknown_bias, result_.times);
   if (fit) return fit;
-  // Nothing goes on without the board, so a shadow over it is worth the time, now and then.
+  // Tracking needs the board, so that an occasional thorough search of a shadowed one is worth its
+  // time.
   if (n_without_board_ % pictures_without_a_close_search != 0) return std::nullopt;
   board_family_tags_ = detect(detectors_.front(), whole(gray_), EdgeSearch::everywhere);
   return board_.find(gray_, *board_family_tags_, last_board_, unknown_bias, result_.times);
@@ -148,7 +149,7 @@ void Tracker::expect_picture() {
   for (BodyFinder* finder : {&board_, &effector_}) finder->expect(noise, tone_.curve());
 }
 
-// The board's edges are measured anew while what they tell of the camera's curve moves them.
+// Repeats the measurement of the board's edges until the learned tone curve no longer moves them.
 std::optional<BodyFit> Tracker::learn_tone(std::optional<BodyFit> board) {
   constexpr int most_rounds = 4;
   for (int round = 0; board && round < most_rounds; ++round) {
@@ -156,10 +157,10 @@ std::optional<BodyFit> Tracker::learn_tone(std::optional<BodyFit> board) {
     const bool moves = tone_.learn(board_.tone(), board->bias_px, board->bias_sd_px);
     expect_picture();
     if (!moves) break;
-    const auto anew = board_.find_again(gray_, board->camera_from_body,
-                                        {.tags = tags_that_tell_bias}, unknown_bias, result_.times);
-    if (!anew) break;
-    board = anew;
+    const auto again = board_.find_again(
+        gray_, board->camera_from_body, {.tags = tags_that_tell_bias}, unknown_bias, result_.times);
+    if (!again) break;
+    board = again;
   }
   tone_.next_picture();
   return board;
@@ -173,7 +174,7 @@ std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double 
   std::optional<Pose> expected;
   if (seen_ && seen_->tells_of(t_s)) expected = expected_by(seen_->velocity);
   if (settings_.region_of_interest && expected && !board_family_tags_) {
-    // What goes on as it did is found by its edges; that they are its tags, their cells say.
+    // A continued motion is found by edges; cells confirm that they are its tags.
     if (settings_.refine_edges && n_unseen_ == 0) {
       const auto fit =
           effector_.find_again(gray_, expected_by(seen_->next),
@@ -190,8 +191,8 @@ std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double 
   return unrolled(*fit, seen_board, prior, t_s);
 }
 
-// A moving hand's cells are smeared along its way. The board in the same picture tells how blurred
-// things are that stand still.
+// The cells of a moving effector are smeared along its path. The board in the same picture gives
+// the blur without motion.
 std::optional<Smear> Tracker::smear(const Pose& board_from_effector, const BodyFit& seen_board,
                                     double t_s) const {
   if (!seen_ || !(t_s > seen_->t_s)) return std::nullopt;
@@ -205,9 +206,9 @@ std::optional<Smear> Tracker::smear(const Pose& board_from_effector, const BodyF
   return Smear{{turn * mean.linear_m_s, turn * mean.angular_rad_s}, still_px};
 }
 
-// Rows that were read at different times, by the velocity since the last picture, carried on to
-// this one. Where there is none, the pose is a mean over the rows.
-// What is seen at one moment is aligned cell by cell.
+// Corrects for rows read at different times, by the velocity since the last picture, extrapolated
+// to this one. Without a velocity the pose is a mean over the rows. Poses of one moment are aligned
+// cell by cell.
 BodyFit Tracker::unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrior& prior,
                           double t_s) {
   if (!(camera_.readout_s > 0)) {
@@ -263,7 +264,7 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
   if (image.width != camera_.width_px || image.height != camera_.height_px || image.empty())
     throw Error(fmt::format(
         "the picture has {} x {} pixels, but the camera was calibrated for {} x {}: calibrate it "
-        "at the size that it is used at",
+        "at the size that sessions use",
         image.width, image.height, camera_.width_px, camera_.height_px));
   gray_ = gray_of(image);
   board_family_tags_.reset();

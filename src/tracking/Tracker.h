@@ -1,5 +1,5 @@
-// From pixels to poses: finds the board's and the effector's tags, measures their edges on linear
-// light, and solves for both poses. Unfiltered: PoseFilter.h smooths.
+// From pixels to poses: finds the tags of board and effector, measures their edges in linear light,
+// and solves for both poses. Not filtered, see PoseFilter.h.
 #pragma once
 
 #include <optional>
@@ -15,54 +15,53 @@
 
 namespace heft {
 
-/// A pose of less quality is no pose: it may be centimeters off.
+/// A pose of lower quality is discarded: its error may be centimeters.
 inline constexpr double least_pose_quality = 0.05;
 
 struct TrackedPicture {
   std::optional<Pose> camera_from_board;
-  /// Only with the board. Of a camera with a readout_s: when the effector's own row was read, so
-  /// that what is drawn at it lies over the filmed one.
+  /// Only with the board. For a camera with a readout_s: at the time when the effector's own row
+  /// was read, so that what is drawn at it matches the filmed effector.
   std::optional<Pose> board_from_effector;
-  double effector_t_s =
-      0;  ///< then; the picture's time where there is no readout_s, or no effector
+  double effector_t_s = 0;  ///< that time; the picture's without readout_s or effector
   int n_board_tags = 0, n_effector_tags = 0;
-  int n_effector_faces = 0;  ///< on which those tags are; two make a pose firm
-  /// RMS distance of the measured tag edges from where the pose puts them.
+  int n_effector_faces = 0;  ///< faces with those tags; at least two make the pose well determined
+  /// RMS distance of measured tag edges from the pose's.
   double board_reprojection_px = 0, effector_reprojection_px = 0;
-  /// 0...1: how far the effector's pose can be trusted (the board's where there is no effector):
-  /// the fraction of pixels around its tags' edges that look like edges; halved where two poses fit
-  /// about equally well, where the reprojection error is 1 pixel, and where its tags leave the
-  /// effector's place open by half a millimeter, as a single slanted one may, or its farthest tag
-  /// corner by two, as two tilts do that look alike; less than half where the picture is
-  /// overexposed. 0 where nothing was found, never between that and least_pose_quality.
+  /// Confidence in the effector's pose (the board's without an effector), 0...1: the fraction of
+  /// pixels around its tags' edges that match an edge. Halved where two poses fit about equally
+  /// well, at a reprojection error of 1 pixel, and where the standard deviation of the effector's
+  /// position is 0.5 mm, as from a single slanted tag, or that of its farthest tag corner 2 mm, as
+  /// for two similar tilts; below one half where the picture is overexposed. 0 if nothing was
+  /// found, never between that and least_pose_quality.
   double quality = 0;
-  /// The effector is not where motion could have taken it since it was last seen, or was not seen
-  /// for so long that nothing can be said.
+  /// The effector is beyond the reach of motion since it was last seen, or was not seen for too
+  /// long.
   bool jump = false;
-  /// Of the board's tags, outwards, black tags that look small: negative; what the learned tone
-  /// curve leaves of it.
+  /// Outward displacement of the board's tag edges (negative: black tags look smaller) that remains
+  /// after correction by the learned tone curve.
   double edge_bias_px = 0;
   TrackerTimes times;
 };
 
-/// One tracker is used by one thread.
+/// Not thread-safe: use one tracker per thread.
 class Tracker {
  public:
-  /// @throws Error for a board without tags, a family that the detector does not have, an id that a
-  ///   family does not have, or a tag that is on both bodies
+  /// @throws Error for a board without tags, an unknown tag family or id, or a tag that is on both
+  /// bodies
   explicit Tracker(const Apparatus& apparatus, const TrackerSettings& settings = {});
 
   /// @param t_s the picture's capture time; times increase
-  /// @throws Error when the picture is not of the size that the camera was calibrated for
+  /// @throws Error if the picture does not have the calibration's size
   TrackedPicture track(const Image& image, double t_s);
 
-  /// What it takes the camera's tone curve to be: the camera file's response, and what the pictures
-  /// since have told.
+  /// The current estimate of the camera's tone curve: the camera file's response, updated by the
+  /// pictures since.
   const ToneCurve& tone() const { return tone_.curve(); }
-  /// Whether pictures have told anything of it: sRGB may be what they told.
+  /// Whether pictures have contributed to it; the result may be sRGB.
   bool tone_is_told() const { return tone_.is_told(); }
 
-  /// Forgets the last poses: what comes next is no continuation. The camera stays the same.
+  /// Discards the last poses: the next picture does not continue them. Keeps the tone curve.
   void reset();
 
  private:
@@ -87,24 +86,24 @@ class Tracker {
   ToneLearner tone_;
   std::vector<TagDetector> detectors_;  ///< one, or the board's and the effector's
 
-  // Of the picture at hand.
+  // Of the current picture:
   Image gray_;
   std::optional<std::vector<DetectedTag>> board_family_tags_;
   TrackedPicture result_;
 
-  // Of the pictures before it.
+  // Of previous pictures:
   std::optional<Pose> last_board_;
   int last_n_board_tags_ = 0;
-  int n_without_board_ = 0;  ///< pictures
+  int n_without_board_ = 0;  ///< number of pictures
   std::optional<SeenEffector> seen_;
-  int n_unseen_ = 0;  ///< pictures since, or since the start
+  int n_unseen_ = 0;  ///< pictures since then, or since the start
 };
 
-// Why a board or an effector was found in no picture: what one of them shows instead.
+// Diagnosis of pictures without a board or an effector.
 
-/// A picture in which the body was not found, in words: dark, white, mirrored, with other tags,
-/// without any. Takes as long as several detections.
-/// @param what the body is called  @param beside may be in the picture, too: the other body
+/// Describes why the body was not found: dark, white, mirrored, with other tags, without any. Takes
+/// as long as several detections.
+/// @param what name of the body  @param beside the other body, which may be in the picture, too
 std::string why_unseen(const Image& picture, const MarkerBody& body, const std::string& what,
                        const MarkerBody& beside = {});
 

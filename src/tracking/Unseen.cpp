@@ -11,7 +11,7 @@
 namespace heft {
 
 namespace {
-constexpr double clear_margin = 20;  // gray levels between a tag's black and white, to be believed
+constexpr double clear_margin = 20;  // minimum contrast of a tag in gray levels
 
 std::vector<int> ids_in(const Image& gray, const std::string& family) {
   TagDetector detector(family, 1);
@@ -55,32 +55,33 @@ std::string listed(std::vector<int> ids) {
 std::string why_unseen(const Image& picture, const MarkerBody& body, const std::string& what,
                        const MarkerBody& beside) {
   constexpr int dark = 40, white = 250;
-  if (picture.empty() || body.tags.empty()) return "there is nothing to look at";
+  if (picture.empty() || body.tags.empty()) return "there is no picture or no tag";
   const Image gray = gray_of(picture);
   std::vector<int> ids = ids_in(gray, body.family);
   if (beside.family == body.family) std::erase_if(ids, [&](int id) { return is_on(beside, id); });
   const auto n_own = std::ranges::count_if(ids, [&](int id) { return is_on(body, id); });
   if (n_own > 0)
     return fmt::format(
-        "{} of the {}'s {} tags can be read, but too few edges of them are clear, or they don't "
+        "{} of the {}'s {} tags can be read, but too few of their edges are clear, or they do not "
         "fit "
-        "together: is this its file, is it sharp, evenly lit, and nothing on it?",
+        "together: check its file, the focus, the light, and that it is uncovered",
         n_own, what, body.tags.size());
   if (const int median = median_of(gray); median < dark || median >= white)
-    return fmt::format(
-        "the picture is {} (median {} of 255): {}", median < dark ? "dark" : "overexposed", median,
-        median < dark ? "more light, or a longer exposure" : "less light, or a shorter exposure");
+    return fmt::format("the picture is {} (median {} of 255): {}",
+                       median < dark ? "dark" : "overexposed", median,
+                       median < dark ? "use more light, or a longer exposure"
+                                     : "use less light, or a shorter exposure");
   if (std::ranges::any_of(ids_in(mirrored(gray), body.family),
                           [&](int id) { return is_on(body, id); }))
-    return "the picture is mirrored: turn that off in the camera's settings, or print the sheet as "
-           "it was drawn";
+    return "the picture is mirrored: turn that off in the camera's settings, or print the sheet "
+           "without mirroring";
   if (!ids.empty())
-    return fmt::format(
-        "the picture shows other tags of {} ({}), none of the {}'s: is this its file?", body.family,
-        listed(ids), what);
+    return fmt::format("the picture shows other tags of {} ({}), none of the {}'s: check its file",
+                       body.family, listed(ids), what);
   return fmt::format(
-      "the picture shows none of the {0}'s tags: is it in view, not covered, sharp, not too far "
-      "away, and printed with tags of {1}?",
+      "the picture shows none of the {0}'s tags: check that it is in view, uncovered, sharp, not "
+      "too "
+      "far away, and printed with tags of {1}",
       what, body.family);
 }
 

@@ -1,4 +1,4 @@
-// What a camera calibration is worth, in words.
+// The verdict on a camera calibration.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace heft {
 namespace {
 constexpr double degrees = 180 / M_PI;
 
-// What is enough for rays within .2 px: measured on synthetic views.
+// Sufficient for rays within 0.2 px: measured on synthetic views.
 constexpr std::size_t enough_views = 15;
 constexpr double enough_coverage = 0.7;
 constexpr double enough_tilt_rad = 40 / degrees;
@@ -88,14 +88,14 @@ namespace {
 void doubt_print(const PrintShape& print, std::vector<std::string>& list) {
   if (print.is_stretched())
     list.push_back(fmt::format(
-        "the board's print is {:.2f} % ({:.2f} either way) longer {} than its file says: measure "
+        "the board's print is {:.2f} % ({:.2f} either way) longer {} than in its file: measure "
         "both rulers of its sheet and write ruler_measured_m = [across, down] into the file",
         100 * std::abs(print.stretch), 200 * print.stretch_sd,
         print.stretch > 0 ? "across than down" : "down than across"));
   if (print.is_sheared())
     list.push_back(fmt::format(
         "the board's print is sheared: its right angles are off by {:.2f} degrees ({:.2f} either "
-        "way), as of paper that was fed askew; print it once more, or by another printer",
+        "way), as if the paper was fed askew; print it again, or with another printer",
         std::abs(print.shear_rad) * degrees, 2 * print.shear_sd_rad * degrees));
 }
 }  // namespace
@@ -114,18 +114,20 @@ std::vector<std::string> doubts(const CameraCalibration& calibration) {
                     100 * calibration.coverage.fraction(), calibration.coverage.emptiest()));
   doubt(calibration.tilt_range_rad() < enough_tilt_rad,
         fmt::format("views differ by {:.0f} degrees at most; tilt the board (or the camera) to all "
-                    "sides, by 30 degrees or so",
+                    "sides, by about 30 degrees",
                     calibration.tilt_range_rad() * degrees));
   doubt(calibration.distance_ratio() < enough_distance_ratio,
         "all views are from one distance; bring the board nearer and farther away");
   doubt(calibration.rms_px > good_rms_px,
-        fmt::format("corners are {:.2f} px off (rms), expected {} or less; is the board flat, the "
-                    "picture sharp, the exposure short, the focus locked?",
-                    calibration.rms_px, good_rms_px));
+        fmt::format(
+            "corners are {:.2f} px off (rms), expected {} or less; check that the board is flat, "
+            "the picture sharp, the exposure short, and the focus locked",
+            calibration.rms_px, good_rms_px));
   doubt(relative_focal_sd > good_relative_focal_sd,
-        fmt::format("the focal length is known to {:.2f} % only, expected {} %; take more views, "
-                    "more tilted and nearer",
-                    100 * relative_focal_sd, 100 * good_relative_focal_sd));
+        fmt::format(
+            "the focal length has a standard error of {:.2f} %, expected {} %; take more views, "
+            "more tilted and nearer",
+            100 * relative_focal_sd, 100 * good_relative_focal_sd));
   return list;
 }
 
@@ -139,9 +141,10 @@ std::string summary(const CameraCalibration& calibration) {
   const auto list = doubts(calibration);
   text += list.empty() ? "verdict: good\n" : "verdict: doubtful\n";
   for (const std::string& line : list) text += fmt::format("  {}\n", line);
-  // Larger in all and farther away by as much, it is the same picture.
+  // A scaled scene at a scaled distance gives the same picture.
   return text +
-         "no picture tells whether a print is too large or too small as a whole, the board's or "
+         "pictures cannot show whether a print is too large or too small as a whole, the board's "
+         "or "
          "the "
          "effector's: measure the rulers of both sheets (ruler_measured_m)\n";
 }

@@ -16,11 +16,11 @@ namespace {
 constexpr int most_bias_rounds = 6;
 constexpr double settled_bias_px = 0.002;
 
-// Corners of one picture beside the board's.
+// Corners of one picture and of the board.
 struct Points {
   std::vector<cv::Point3f> on_board;
   std::vector<cv::Point2f> in_picture;
-  std::vector<Eigen::Vector2d> outward;  ///< how each moves with the edge bias
+  std::vector<Eigen::Vector2d> outward;  ///< direction in which each moves with the edge bias
 };
 
 struct View {
@@ -44,7 +44,7 @@ Points points_of(const View& view, const MarkerBody& board) {
   return points;
 }
 
-// What OpenCV works with.
+// Parameters and results of OpenCV's calibration.
 struct Solution {
   cv::Mat matrix, distortion;
   double focal_sd_px = 0, center_sd_px = 0;
@@ -76,7 +76,7 @@ Solution solve(const std::vector<Points>& points, const Intrinsics& guess, bool 
                         errors, pose_errors, per_view,
                         use_guess ? cv::CALIB_USE_INTRINSIC_GUESS : 0);
   } catch (const cv::Exception& error) {
-    throw Error(fmt::format("no camera fits these views ({}); are they of this board?", error.err));
+    throw Error(fmt::format("no camera fits these views ({}); check the board file", error.err));
   }
   solution.focal_sd_px = std::max(errors.at<double>(0), errors.at<double>(1));
   solution.center_sd_px = std::max(errors.at<double>(2), errors.at<double>(3));
@@ -93,8 +93,8 @@ Intrinsics intrinsics_of(const Solution& solution, Intrinsics camera) {
   return camera;
 }
 
-// What a view's residuals say of it: their size, the edge bias left in them, the board's normal.
-// @return by how much the bias changed, pixels
+// Statistics of a view's residuals: their size, the remaining edge bias, the board's normal.
+// @return change of the bias, pixels
 double judge(View& view, const Points& points, const Solution& solution, std::size_t i) {
   std::vector<cv::Point2f> projected;
   cv::projectPoints(points.on_board, solution.turns[i], solution.shifts[i], solution.matrix,
@@ -122,7 +122,7 @@ std::vector<View*> used_of(std::vector<View>& views) {
   return used;
 }
 
-// Camera and biases in turns: the gaps between tags grow as the tags shrink, so that each round
+// Alternates between camera and biases: gaps between tags grow as tags shrink, so that each round
 // leaves a small part of the bias.
 Solution solve_with_bias(std::vector<View>& views, const MarkerBody& board,
                          const Intrinsics& guess) {
@@ -169,8 +169,8 @@ std::vector<View> views_of(const MarkerBody& board, const std::vector<Image>& pi
   if (views.size() < least_views)
     throw Error(
         fmt::format("{} of {} picture(s) show {} or more of the board's tags clearly, "
-                    "expected at least {} and better 20; is it the right board file, is "
-                    "the board sharp and evenly lit?",
+                    "expected at least {} and better 20; check the board file, focus and "
+                    "light",
                     views.size(), pictures.size(), least_tags_of_a_view, least_views));
   return views;
 }
@@ -220,7 +220,7 @@ CameraCalibration calibrate_camera(const MarkerBody& board, const std::vector<Im
   result.camera = guessed_camera(pictures[0].width, pictures[0].height);
   Solution solution;
   std::vector<View> views;
-  for (int round = 0; round < 2; ++round) {  // the second knows how the lens bends edges
+  for (int round = 0; round < 2; ++round) {  // the second round knows the lens's bending of edges
     views = views_of(board, pictures, names, result.camera);
     do {
       solution = solve_with_bias(views, board, result.camera);

@@ -21,7 +21,8 @@ double side_m(const Tag& tag) {
   return sum / 4;
 }
 
-// Misfit of a view's corners for a pose, each counted up to a limit: one wrong tag must not decide.
+// Misfit of a view's corners for a pose, with a limit per corner, so that one wrong tag does not
+// decide.
 double misfit(const MarkerBody& effector, const Intrinsics& camera, const TagView& view,
               const Pose& camera_from_body) {
   constexpr double limit_px = 20;
@@ -35,7 +36,7 @@ double misfit(const MarkerBody& effector, const Intrinsics& camera, const TagVie
   return sum;
 }
 
-// Of every pose that a single tag of the view allows, the one that fits all of them best.
+// Of all poses that single tags of the view allow, the one that fits all tags best.
 Pose first_pose(const MarkerBody& effector, const Intrinsics& camera, const TagView& view) {
   Pose best;
   double least = std::numeric_limits<double>::infinity();
@@ -71,7 +72,7 @@ std::vector<Tag> tags_of(const TagBundle& bundle, const MarkerBody& effector) {
   return tags;
 }
 
-// Turns and shifts all tags together to lie best on where the file had them.
+// Moves all tags together to fit the file's positions best.
 void back_to_axes(std::vector<Tag>& tags, const std::vector<Tag>& nominal) {
   const auto n = static_cast<Eigen::Index>(4 * tags.size());
   Eigen::Matrix3Xd from(3, n), to(3, n);
@@ -93,7 +94,7 @@ std::vector<CalibratedTag> counted(const MarkerBody& effector, const std::vector
   return tags;
 }
 
-// "33, 34 (in 0 and 2 pictures)" of the tags that were seen beside another one too seldom.
+// Tags that were seen beside another one too rarely: "33, 34 (in 0 and 2 pictures)".
 std::string seldom_seen(const std::vector<CalibratedTag>& tags) {
   std::vector<int> ids, counts;
   for (const CalibratedTag& tag : tags)
@@ -111,14 +112,14 @@ void require_enough(const std::vector<CalibratedTag>& tags, std::size_t n_views)
   if (n_views < least)
     throw Error(
         fmt::format("{} picture(s) show two or more of the effector's tags clearly, expected at "
-                    "least {} and better 40; seen beside another one too seldom: tag {}. Turn it "
-                    "slowly in front of "
-                    "the camera, near, in good light; is it the right effector file?",
+                    "least {} and better 40; too rarely beside another tag: {}. Turn it "
+                    "slowly close to "
+                    "the camera, in good light; check the effector file",
                     n_views, least, seldom));
   if (!seldom.empty())
     throw Error(fmt::format(
-        "too little was seen, beside another tag, of tag {}; expected {} pictures or more of each. "
-        "Show them with their neighbors, or take a tag that is not on the effector out of its file",
+        "too few pictures show tag {} beside another tag; expected {} or more of each. "
+        "Show them with their neighbors, or remove a tag that is not on the effector from its file",
         seldom, least_views_of_a_tag));
 }
 }  // namespace
@@ -149,14 +150,14 @@ std::vector<std::string> doubts(const EffectorCalibration& calibration) {
   for (const CalibratedTag& tag : calibration.tags) {
     if (tag.moved_m > far_m)
       list.push_back(
-          fmt::format("tag {} is {:.1f} mm from where the file has it; is it on the "
-                      "right face, and right way up?",
+          fmt::format("tag {} is {:.1f} mm from its place in the file; check its face and "
+                      "orientation",
                       tag.id, tag.moved_m * 1e3));
   }
   if (calibration.rms_px > good_rms_px)
     list.push_back(
-        fmt::format("corners are {:.2f} px off (rms), expected {} or less; are the tags "
-                    "flat, is the picture sharp, is it this camera's file?",
+        fmt::format("corners are {:.2f} px off (rms), expected {} or less; check that the tags are "
+                    "flat, the picture sharp, and the camera's file right",
                     calibration.rms_px, good_rms_px));
   return list;
 }
@@ -165,7 +166,7 @@ std::string summary(const EffectorCalibration& calibration) {
   std::string text = fmt::format("{} pictures with two tags or more, reprojection {:.3f} px rms\n",
                                  calibration.n_views, calibration.rms_px);
   for (const CalibratedTag& tag : calibration.tags)
-    text += fmt::format("tag {}: in {} of them, {:.2f} mm from where the file had it\n", tag.id,
+    text += fmt::format("tag {}: in {} of them, {:.2f} mm from its place in the file\n", tag.id,
                         tag.n_views, tag.moved_m * 1e3);
   const auto list = doubts(calibration);
   text += list.empty() ? "verdict: good\n" : "verdict: doubtful\n";

@@ -1,8 +1,8 @@
-// Where a hand-made effector's tags really are, from pictures of it: the tags' places on the
-// effector and the effector's pose in each picture are adjusted together (bundle adjustment) until
-// all corners project to where they were measured. Each tag stays the flat square that its file
-// says; overall size can't be told from pictures, so that the tags' printed size fixes it. Origin
-// and axes stay those of the file: the corners' best rigid fit.
+// Measures the tags of a hand-made effector from pictures of it: the tags' poses on the effector
+// and the effector's pose in each picture are adjusted together (bundle adjustment) until all
+// corners project to their measured pixels. Each tag stays the flat square of its file. Pictures do
+// not determine the overall size, which is fixed by the tags' printed size. Origin and axes remain
+// the file's, by the corners' best rigid fit.
 #pragma once
 
 #include <string>
@@ -15,48 +15,48 @@ namespace heft {
 
 struct CalibratedTag {
   int id = 0;
-  int n_views = 0;     ///< that show it together with another tag
-  double moved_m = 0;  ///< mean way of its corners from where the file had them
+  int n_views = 0;     ///< views that show it together with another tag
+  double moved_m = 0;  ///< mean displacement of its corners from the file's
 };
 
 struct EffectorCalibration {
   MarkerBody effector;  ///< as measured
   double rms_px = 0;    ///< reprojection
-  double bias_px = 0;   ///< by which edges seemed moved outwards
+  double bias_px = 0;   ///< apparent outward displacement of edges
   int n_views = 0;
   std::vector<CalibratedTag> tags;  ///< in the effector's order
 };
 
-/// The smallest number of views that a tag needs to be placed.
+/// The smallest number of views that determines a tag.
 inline constexpr int least_views_of_a_tag = 6;
 
-/// @param views of the effector; those with fewer than two tags don't count
-/// @throws Error when there are too few, or a tag is in fewer than least_views_of_a_tag of them,
-///   naming it
+/// @param views of the effector; those with fewer than two tags are not used
+/// @throws Error if there are too few, or a tag is in fewer than least_views_of_a_tag of them,
+/// naming it
 EffectorCalibration calibrate_effector(const MarkerBody& effector, const Intrinsics& camera,
                                        const std::vector<TagView>& views);
 
-/// Why a calibration should not be trusted and what to do about it; empty: it can be.
+/// Reasons to distrust a calibration, with advice; empty if there are none.
 std::vector<std::string> doubts(const EffectorCalibration& calibration);
 
-/// How the result came about, for the top of its file.
+/// Description of the result, for the top of its file.
 std::string summary(const EffectorCalibration& calibration);
 
-// Bundle adjustment of rigid tags on a body that is seen in several views: the least-squares core
-// of EffectorCalibration.h.
+// Bundle adjustment of rigid tags on a body in several views, the least-squares core of the
+// calibration.
 
 struct TagBundle {
-  std::vector<Pose> body_from_tag;     ///< of each tag; its own frame has x right, y up, z out
+  std::vector<Pose> body_from_tag;     ///< of each tag, whose frame has x right, y up, z out
   std::vector<double> side_m;          ///< of each tag
   std::vector<Pose> camera_from_body;  ///< of each view
-  double bias_px = 0;                  ///< edges seem moved outwards by as much
+  double bias_px = 0;                  ///< apparent outward displacement of edges
 };
 
-/// The corner of a tag in its own frame. @param corner 0 top left, then clockwise
+/// The corner of a tag in its frame. @param corner 0 top left, then clockwise
 Eigen::Vector3d corner_in_tag(double side_m, std::size_t corner);
 
-/// Levenberg-Marquardt with Huber weights on corners in pixels. Loose springs hold the tags' places
-/// and the bias to where they start: they settle what no view tells and nothing else.
+/// Levenberg-Marquardt with Huber weights on corners in pixels. Weak priors at the start values
+/// keep undetermined parameters in place without affecting others.
 /// @return reprojection error, rms in pixels
 double adjust(TagBundle& bundle, const Intrinsics& camera, const std::vector<TagView>& views);
 

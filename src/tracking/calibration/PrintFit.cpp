@@ -10,24 +10,24 @@
 namespace heft {
 
 namespace {
-// Less than this moves the effector by less than half a millimeter. Noise alone makes no print
-// look wrong at so many standard errors.
+// Smaller deviations move the effector by less than half a millimeter; noise alone does not reach
+// this many standard errors.
 constexpr double least_stretch = 0.0008, least_shear_rad = 0.0008, least_deviations = 4;
 
-// Unknowns: the camera's nine, stretch and shear, each view's six.
+// Unknowns: nine of the camera, stretch and shear, six of each view.
 constexpr Eigen::Index n_of_camera = 9, stretch_at = 9, shear_at = 10, views_at = 11, n_of_view = 6;
 
 bool stands_out(double value, double sd, double least) {
   return std::abs(value) > std::max(least, least_deviations * sd);
 }
 
-// Derivatives of a view's pixels, and what is left to explain.
+// Derivatives of a view's pixels, and its residuals.
 struct Linear {
   Eigen::MatrixXd by_view, by_camera, by_shape;
   Eigen::VectorXd residuals;
 };
 
-// How pixels move with a point's place on the board, by how they move with the whole board.
+// Derivatives of pixels by a point's position on the board, from those by the board's position.
 Eigen::MatrixXd by_shape(const FittedView& view, const Eigen::MatrixXd& by_shift) {
   cv::Mat turn;
   cv::Rodrigues(view.turn, turn);

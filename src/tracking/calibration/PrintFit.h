@@ -1,4 +1,4 @@
-// What views of a board tell of its print's shape. Not for other rooms: it speaks OpenCV.
+// The shape of a board's print from views of it. Private to the folder: it uses OpenCV's types.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -8,15 +8,15 @@
 
 namespace heft {
 
-/// The corners of one view and where calibration put the board in it.
+/// The corners of one view and the calibrated pose of the board.
 struct FittedView {
   std::vector<cv::Point3f> on_board;  ///< z = 0
   std::vector<cv::Point2f> in_picture;
   cv::Mat turn, shift;
 };
 
-/// One step of least squares in camera, poses, stretch and shear together, from where calibration
-/// ended without the last two.
+/// One least-squares step in camera, poses, stretch and shear together, starting from a calibration
+/// without the last two.
 PrintShape shape_of_print(const std::vector<FittedView>& views, const cv::Mat& matrix,
                           const cv::Mat& distortion);
 

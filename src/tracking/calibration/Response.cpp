@@ -13,7 +13,7 @@ std::optional<std::array<double, 3>> learned_response(const Intrinsics& camera,
                                                       const std::vector<Image>& pictures) {
   Tracker tracker({camera, board, {}});
   for (std::size_t i = 0; i < pictures.size(); ++i) {
-    tracker.reset();  // each view is from elsewhere
+    tracker.reset();  // each view is from another place
     tracker.track(pictures[i], static_cast<double>(i));
   }
   if (!tracker.tone_is_told()) return std::nullopt;
@@ -27,7 +27,7 @@ ToneCurve response_of(const Intrinsics& camera) {
 }
 
 double brighter_levels(const ToneCurve& curve, const ToneCurve& than) {
-  constexpr double black = 40, white = 230;  // as prints are stored in good light
+  constexpr double black = 40, white = 230;  // typical values of a print in good light
   const double dark = curve.light(black), bright = curve.light(white);
   const double other_dark = than.light(black), other_bright = than.light(white);
   double most = 0;
@@ -46,10 +46,11 @@ std::string beside_srgb(double brighter_levels) {
 
 std::string response_in_words(const Intrinsics& camera) {
   if (!camera.response)
-    return "tone curve: the board's edges told nothing; is its paper clipped (white)?\n";
+    return "tone curve: not learned from the board's edges; check that its paper is not white "
+           "(clipped)\n";
   const double levels = brighter_levels(response_of(camera), ToneCurve());
   return fmt::format("tone curve: {}, middle grays {}\n",
-                     std::abs(levels) < bending_levels ? "close to sRGB" : "bent",
+                     std::abs(levels) < bending_levels ? "close to sRGB" : "different from sRGB",
                      beside_srgb(levels));
 }
 

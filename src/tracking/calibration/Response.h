@@ -1,5 +1,5 @@
-// A camera's response: the tone curve that the tracker learns from the board's edges, taken from
-// the calibration's pictures, kept in the camera's file, and told in gray levels.
+// A camera's response: the tone curve that the tracker learns from the board's edges in the
+// calibration's pictures. It is kept in the camera's file and described in gray levels.
 #pragma once
 
 #include <array>
@@ -13,21 +13,20 @@
 
 namespace heft {
 
-/// @param pictures of the board, in which the camera is calibrated already
-/// @return none where the board's edges told nothing, as where its white is clipped
+/// @param pictures of the board, used for the camera's calibration before
+/// @return none if the board's edges do not determine it, for example if white is clipped
 std::optional<std::array<double, 3>> learned_response(const Intrinsics& camera,
                                                       const MarkerBody& board,
                                                       const std::vector<Image>& pictures);
 
-/// sRGB where the file says nothing.
+/// sRGB if the file has none.
 ToneCurve response_of(const Intrinsics& camera);
 
-/// How much brighter than by another curve middle grays are stored between a print's black and its
-/// white, which both curves store alike: gray levels of 255, the most of any; negative where they
-/// are darker.
+/// The largest difference between the middle grays of two curves, scaled to have equal black and
+/// white of a print: gray levels of 255; negative where `curve` is darker.
 double brighter_levels(const ToneCurve& curve, const ToneCurve& than);
 
-/// From so many levels on a camera is said to bend tones.
+/// From this many levels on, a camera's curve counts as different.
 inline constexpr double bending_levels = 10;
 
 /// "12 of 255 levels darker than sRGB's"

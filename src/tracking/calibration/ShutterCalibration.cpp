@@ -15,7 +15,7 @@
 namespace heft {
 
 namespace {
-// The pose (a turn about the camera's axes, a shift) and the read-out.
+// The pose (a rotation about the camera's axes, a shift) and the read-out.
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
@@ -77,7 +77,7 @@ std::vector<Placed> placed(const MarkerBody& board, const Intrinsics& camera,
     const auto pose = rough_pose(board, camera, seen.view);
     if (!pose) continue;
     all.push_back({&seen, *pose, std::nullopt});
-    for (int i = 0; i < 10; ++i) {  // as if all rows were read at once
+    for (int i = 0; i < 10; ++i) {  // without a rolling shutter
       const Equations equations = equations_of(all.back(), board, camera, 0);
       move(all.back().pose,
            equations.matrix.topLeftCorner<6, 6>().ldlt().solve(equations.rhs.head<6>()));
@@ -140,35 +140,34 @@ std::vector<std::string> doubts(const ShutterCalibration& calibration) {
   constexpr double most_sd_s = 0.0005, longest_s = 0.05;
   std::vector<std::string> found;
   if (calibration.n_pictures < enough_waved_pictures / 2)
-    found.push_back(fmt::format("only {} pictures of a moving board; wave it for some seconds",
+    found.push_back(fmt::format("only {} pictures of a moving board; wave it for several seconds",
                                 calibration.n_pictures));
   if (!(calibration.sd_s < most_sd_s))
     found.push_back(fmt::format(
-        "the read-out is known to {:.1f} ms only; wave the board faster, to and fro and up and "
-        "down, in more light",
+        "the read-out has a standard error of {:.1f} ms; wave the board faster, to and fro and up "
+        "and down, in more light",
         1e3 * calibration.sd_s));
   if (calibration.readout_s < -2 * calibration.sd_s - most_sd_s ||
       calibration.readout_s > longest_s)
-    found.push_back(
-        "no shutter reads its rows that fast or slowly; are the pictures' times those of the "
-        "camera, and the board flat?");
+    found.emplace_back(
+        "no shutter has such a read-out time; check that the pictures' times are the camera's, and "
+        "that the board is flat");
   return found;
 }
 
 double half_millimeter_m_s(double readout_s) {
-  constexpr double rows_of_the_effector = 0.1;  // of the picture's
+  constexpr double rows_of_the_effector = 0.1;  // as a fraction of the picture's
   return 0.0005 / (rows_of_the_effector * readout_s);
 }
 
 std::string summary(const ShutterCalibration& calibration) {
   std::string text = fmt::format(
       "read-out {:.1f} ms from the first row to the last, sd {:.2f} ms, from {} pictures of a "
-      "board "
-      "that moved at up to {:.2f} m/s; corners {:.2f} px off\n",
+      "board that moved at up to {:.2f} m/s; corners {:.2f} px off\n",
       1e3 * calibration.readout_s, 1e3 * calibration.sd_s, calibration.n_pictures,
       calibration.fastest_m_s, calibration.rms_px);
   if (calibration.readout_s > 0.001)
-    text += fmt::format("a tracker that is not told of it is half a millimeter off at {:.2f} m/s\n",
+    text += fmt::format("uncorrected, the error would be half a millimeter at {:.2f} m/s\n",
                         half_millimeter_m_s(calibration.readout_s));
   const auto all = doubts(calibration);
   for (const std::string& doubt : all) text += "doubtful: " + doubt + "\n";

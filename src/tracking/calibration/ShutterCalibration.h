@@ -1,9 +1,9 @@
-// How long a rolling shutter takes from its first row to its last, from pictures of a board that is
-// waved. Each corner is projected with the board's pose at its own row's time,
+// The read-out time of a rolling shutter, from its first row to its last, from pictures of a waved
+// board. Each corner is projected with the board's pose at its own row's time,
 //
 //   pose(t + readout * row / rows),   along the mean velocity between the pictures before and after
 //
-// and the read-out that leaves the least is found together with every picture's pose.
+// The read-out and every picture's pose are fitted together by least squares.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace heft {
 
-/// What one picture showed of the board.
+/// The board in one picture.
 struct TimedView {
   double t_s = 0;  ///< of its first row
   TagView view;
@@ -22,27 +22,27 @@ struct TimedView {
 struct ShutterCalibration {
   double readout_s = 0, sd_s = 0;
   std::size_t n_pictures = 0;  ///< with one before and one after
-  double fastest_m_s = 0;      ///< of the board's middle, its 90th percentile
+  double fastest_m_s = 0;      ///< 90th percentile of the speed of the board's middle
   double rms_px = 0;
 };
 
-/// Pictures that are further apart say nothing of the velocity between them.
+/// Pictures further apart do not determine the velocity between them.
 inline constexpr double longest_between_s = 0.12;
 inline constexpr std::size_t enough_waved_pictures = 40;
 
 /// @param views in order of time
-/// @throws Error where no picture has one shortly before and after it
+/// @throws Error if no picture has one shortly before and after it
 ShutterCalibration calibrate_shutter(const MarkerBody& board, const Intrinsics& camera,
                                      const std::vector<TimedView>& views);
 
-/// Why it should not be trusted and what to do about it; empty: it can be.
+/// Reasons to distrust the result, with advice; empty if there are none.
 std::vector<std::string> doubts(const ShutterCalibration& calibration);
 
-/// How the result came about, and what it means.
+/// Description of the result and its consequences.
 std::string summary(const ShutterCalibration& calibration);
 
-/// Half a millimeter: the speed at which the effector moves so far while its own tenth of the rows
-/// is read, which is what a tracker that is not told of the read-out is off by. None for 0.
+/// The speed at which the effector moves half a millimeter while its tenth of the rows is read,
+/// which is the error of a tracker that ignores the read-out. None for 0.
 double half_millimeter_m_s(double readout_s);
 
 }  // namespace heft

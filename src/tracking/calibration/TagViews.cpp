@@ -11,9 +11,9 @@ namespace heft {
 namespace {
 constexpr double least_quality = 0.85;
 constexpr double usual_blur_px = 0.7;
-constexpr int most_edge_pixels = 1000;  // all of an edge: time does not count here
+constexpr int most_edge_pixels = 1000;  // all of an edge, because time is not critical
 
-// A corner that edge refinement took far from where the detector read the tag is no better.
+// A corner that edge refinement moved far from the detected one is not trusted.
 bool near_detected(const MeasuredTag& measured, const DetectedTag& detected) {
   constexpr double furthest_px = 3;
   for (std::size_t c = 0; c < 4; ++c)
@@ -58,7 +58,7 @@ std::array<Eigen::Vector2d, 4> outward_moves(const std::array<Eigen::Vector2d, 4
   std::array<Eigen::Vector2d, 4> moves;
   const auto outwards = [&](std::size_t from) -> Eigen::Vector2d {
     const Eigen::Vector2d along = (corners_px[(from + 1) % 4] - corners_px[from]).normalized();
-    return {along.y(), -along.x()};  // corners go round clockwise, y is down
+    return {along.y(), -along.x()};  // corners are clockwise, y is down
   };
   for (std::size_t c = 0; c < 4; ++c) {
     Eigen::Matrix2d normals;

@@ -1,5 +1,4 @@
-// A body's tags as measured in single pictures, for the calibrations: they compare many pictures,
-// where the tracker looks at one.
+// A body's tags as measured in single pictures, for the calibrations, which compare many pictures.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +16,7 @@ namespace heft {
 
 /// One tag of one picture.
 struct SeenTag {
-  std::size_t tag = 0;  ///< place in the body's tags
+  std::size_t tag = 0;  ///< index among the body's tags
   std::array<Eigen::Vector2d, 4> corners_px;
 };
 
@@ -26,26 +25,26 @@ struct TagView {
   std::vector<SeenTag> tags;
 };
 
-/// Detects tags and measures their edges. One viewer is used by one thread.
+/// Detects tags and measures their edges. Not thread-safe: use one viewer per thread.
 class TagViewer {
  public:
-  /// @throws Error for a family that the detector does not have
+  /// @throws Error for an unknown tag family
   explicit TagViewer(const MarkerBody& body);
-  /// Tags with four clear edges. @param image 1 or 3 channels  @param camera how far the lens bends
-  /// edges; a guess without distortion does for choosing pictures
+  /// Tags with four clear edges. @param image 1 or 3 channels  @param camera gives the lens's
+  /// bending of edges; one without distortion suffices for choosing pictures
   TagView view(const Image& image, const Intrinsics& camera);
 
  private:
   TagDetector detector_;
   std::vector<TagPattern> patterns_;
-  std::map<int, std::size_t> place_;  ///< of an id among the body's tags
+  std::map<int, std::size_t> place_;  ///< index among the body's tags by id
 };
 
-/// How far a view is from another: the mean way of the corners that both have, pixels; infinite
-/// where they have no tag in common.
+/// Difference of two views: the mean distance of their common corners, pixels; infinite without
+/// common tags.
 double difference_px(const TagView& a, const TagView& b);
 
-/// How a tag's corners move when its four edges move outwards by a pixel.
+/// Displacements of a tag's corners when its four edges move outwards by a pixel.
 std::array<Eigen::Vector2d, 4> outward_moves(const std::array<Eigen::Vector2d, 4>& corners_px);
 
 }  // namespace heft

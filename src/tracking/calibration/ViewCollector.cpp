@@ -14,7 +14,7 @@ namespace {
 constexpr int enough_tilted = 2;
 constexpr double enough_coverage = 0.75;
 constexpr double enough_distance_ratio = 1.2;
-constexpr double steady_px = 1.5;     // between one picture and the next
+constexpr double steady_px = 1.5;     // between consecutive pictures
 constexpr double tilted_sine = 0.26;  // 15 degrees
 }  // namespace
 
@@ -54,7 +54,7 @@ void ViewCollector::count_pose(const TagView& view) {
   const auto pose = rough_pose(board_, guess_, view);
   if (!pose) return;
   const Eigen::Vector3d normal = pose->orientation * Eigen::Vector3d::UnitZ();
-  // The board's front looks to where the nearer side is not.
+  // The board's front faces away from its nearer side.
   if (normal.x() > tilted_sine) ++tilted_[right];
   if (normal.x() < -tilted_sine) ++tilted_[left];
   if (normal.y() > tilted_sine) ++tilted_[lower];
@@ -71,7 +71,7 @@ bool ViewCollector::complete() const {
 std::vector<std::string> ViewCollector::missing() const {
   constexpr std::array<const char*, 4> sides{"left", "right", "upper", "lower"};
   std::vector<std::string> list;
-  // The side that was tilted least; the next one follows when that is done.
+  // The side that was tilted least is wanted first.
   const auto least = std::ranges::min_element(tilted_);
   if (*least < enough_tilted)
     list.push_back(fmt::format("tilt the board: its {} side away from the camera",
@@ -86,7 +86,7 @@ std::vector<std::string> ViewCollector::missing() const {
   return list;
 }
 
-// The first ones need no direction: any view is new.
+// The first views may be from anywhere.
 std::string ViewCollector::wanted() const {
   const std::vector<std::string> list = missing();
   if (list.empty()) return "";
@@ -100,7 +100,7 @@ std::string ViewCollector::tally() const {
   };
   add(n_without_board_, "don't show the board clearly (4 tags or more)");
   add(n_moving_, "were taken while it moved");
-  add(n_alike_, "are too much like one that was kept");
+  add(n_alike_, "are too similar to one that was kept");
   return text;
 }
 

@@ -1,6 +1,6 @@
-// Which pictures of a stream are worth calibrating from, and what is still wanted: views of the
-// board that differ, cover the picture and are tilted to all sides; views of the effector with two
-// tags or more.
+// Selects pictures of a stream for calibration, and lists the missing views: different
+// views of the board that cover the picture and are tilted to all sides; views of the effector with
+// two or more tags.
 #pragma once
 
 #include <array>
@@ -14,24 +14,24 @@ namespace heft {
 
 class ViewCollector {
  public:
-  /// Enough for rays within .2 px; more than most add nothing but time.
+  /// Sufficient for rays within 0.2 px; more than `most` only take time.
   static constexpr std::size_t enough = 20, most = 60;
 
-  /// @param live pictures come from a hand-held board: blurred ones are passed over, and views must
-  /// differ more, so that they are spread over the picture
+  /// @param live pictures of a hand-held board: blurred ones are skipped, and views must differ
+  /// more, to be
+  ///   spread over the picture
   ViewCollector(const MarkerBody& board, int width_px, int height_px, bool live);
 
-  /// @return whether the picture was kept: enough tags, unlike every one kept so far, not moving
+  /// @return whether the picture was kept: enough tags, unlike every kept one, not moving
   bool offer(const Image& image, const std::string& name);
 
   bool complete() const;
   bool full() const { return names_.size() >= most; }
-  /// What to do next, for the person with the board; empty when all is there.
+  /// The next instruction for the operator; empty if complete.
   std::string wanted() const;
-  /// All that is still to be shown, one after the other; empty when nothing is.
+  /// All missing views, one after the other; empty if complete.
   std::vector<std::string> missing() const;
-  /// Why so few pictures were kept: how many there were, in how many the board was not seen, moved,
-  /// or was seen so before.
+  /// Statistics of rejected pictures: without the board, moving, or similar to a kept one.
   std::string tally() const;
 
   std::size_t size() const { return names_.size(); }
@@ -55,7 +55,7 @@ class ViewCollector {
   std::vector<Image> pictures_;
   std::vector<std::string> names_;
   Coverage coverage_;
-  std::array<int, 4> tilted_{};  ///< views in which that side of the board is farther away
+  std::array<int, 4> tilted_{};  ///< number of views with that side of the board farther away
   double nearest_m_ = 0, farthest_m_ = 0;
   std::size_t n_offered_ = 0, n_without_board_ = 0, n_moving_ = 0, n_alike_ = 0;
 };
@@ -64,13 +64,13 @@ class EffectorViews {
  public:
   EffectorViews(const MarkerBody& effector, const Intrinsics& camera);
 
-  /// @throws Error for a picture of another size than the camera was calibrated at
+  /// @throws Error for a picture of another size than the camera's calibration
   void offer(const Image& image, const std::string& name);
 
-  /// Enough of them, and of every tag.
+  /// Enough views, and enough of every tag.
   bool complete() const;
   bool full() const { return views_.size() >= most; }
-  /// How far towards enough of them: 1 is there.
+  /// Fraction of the required views; at least 1 when there are enough.
   double progress() const { return static_cast<double>(views_.size()) / enough; }
   /// "12 pictures; tag 30: 7 tag 31: 5".
   std::string counts() const;
@@ -86,7 +86,7 @@ class EffectorViews {
   Intrinsics camera_;
   TagViewer viewer_;
   std::vector<TagView> views_;
-  std::vector<int> counts_;  ///< of each tag
+  std::vector<int> counts_;  ///< by tag
 };
 
 }  // namespace heft

@@ -36,7 +36,7 @@ std::unique_ptr<Camera> open_camera(std::string_view name, const std::string& wh
                                     const CameraRequest& request) {
   const CameraEntry& entry = entry_named("camera", name, cameras());
   if (what.empty())
-    throw Error(fmt::format("\"{}\" does not say which one; write {}", name, entry.summary),
+    throw Error(fmt::format("\"{}\" needs a source; write {}", name, entry.summary),
                 ExitCode::usage);
   return entry.open(what, request);
 }

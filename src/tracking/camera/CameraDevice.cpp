@@ -16,7 +16,7 @@
 namespace heft {
 
 namespace {
-constexpr double driver_exposure_s = 1e-4;  // V4L2 counts exposure in 100 microseconds
+constexpr double driver_exposure_s = 1e-4;  // V4L2 counts exposure in units of 100 microseconds
 constexpr double manual_exposure = 1;       // V4L2_EXPOSURE_MANUAL
 constexpr double first_picture_s = 5;       // some cameras take long to start
 
@@ -30,7 +30,7 @@ std::string letters_of(double code) {
   return letters;
 }
 
-// Uncompressed where USB 2 has room for it: JPEG's blocks disturb edges.
+// Uncompressed if USB 2 has the bandwidth: JPEG's blocks disturb edges.
 double wanted_format(const CameraRequest& request) {
   const bool fits = request.width_px * request.height_px * request.rate_hz <= 640 * 480 * 30;
   return four_cc(fits ? std::array{'Y', 'U', 'Y', 'V'} : std::array{'M', 'J', 'P', 'G'});
@@ -41,7 +41,8 @@ bool takes(const CameraControls& controls, int property, double value) {
 }
 
 constexpr std::string_view exposure_drifts =
-    "exposure: the camera chooses it, so in dim light it gets long and fast movements smear; add "
+    "exposure: chosen by the camera, so it is long in dim light and fast movements are blurred; "
+    "add "
     "light";
 constexpr std::string_view focus_moves =
     "focus: if the lens refocuses, the calibration no longer holds; cameras without autofocus are "
@@ -57,28 +58,27 @@ void lock_exposure(const CameraControls& controls, double exposure_s, CameraMode
   else if (!set || got_s > 1.5 * exposure_s)
     mode.not_locked.push_back(
         fmt::format("exposure: fixed at {:.1f} ms instead of {:.1f} ms, so "
-                    "fast movements smear more",
+                    "fast movements are more blurred",
                     1e3 * got_s, 1e3 * exposure_s));
   else
     mode.held.exposure_s = got_s;
   if (mode.held.exposure_s) mode.locked.push_back(fmt::format("exposure {:.1f} ms", 1e3 * got_s));
 }
 
-// A lens that stands elsewhere than it was calibrated at magnifies otherwise.
+// The lens's position affects the focal length.
 void lock_focus(const CameraControls& controls, std::optional<double> wanted, CameraMode& mode) {
   const bool still = takes(controls, cv::CAP_PROP_AUTOFOCUS, 0);
   if (wanted && !takes(controls, cv::CAP_PROP_FOCUS, *wanted)) {
     const double at = controls.get(cv::CAP_PROP_FOCUS);
     mode.not_locked.push_back(fmt::format(
-        "focus: calibrated at {:g}, but {}, so the calibration may not hold: calibrate once more",
+        "focus: calibrated at {:g}, but {}, so the calibration may be wrong: calibrate again",
         *wanted,
-        at < 0 ? std::string("this driver can't set it")
-               : fmt::format("it is at {:g} and the driver does not change that", at)));
+        at < 0 ? std::string("this driver cannot set it")
+               : fmt::format("it is at {:g} and the driver does not change it", at)));
   } else if (!still) {
     mode.not_locked.emplace_back(focus_moves);
   } else {
-    // Being sent to where it says it is, a lens is there, and a driver without the control is found
-    // out.
+    // Setting the current position locks the lens there, and fails if the driver lacks the control.
     const double at = controls.get(cv::CAP_PROP_FOCUS);
     if (at >= 0 && takes(controls, cv::CAP_PROP_FOCUS, at)) mode.held.focus = at;
     mode.locked.push_back(mode.held.focus ? fmt::format("focus {:g}", at) : "focus");
@@ -97,12 +97,12 @@ void lock_controls(const CameraControls& controls, const CameraRequest& request,
   if (takes(controls, cv::CAP_PROP_AUTO_WB, 0))
     mode.locked.push_back("white balance");
   else
-    mode.not_locked.emplace_back("white balance: colors may drift; tracking does not mind");
+    mode.not_locked.emplace_back("white balance: colors may drift, which does not affect tracking");
 }
 
 namespace {
 
-// The device itself; after the constructor only the grabbing thread touches it.
+// The device; after construction only the grabbing thread uses it.
 class Device {
  public:
   Device(int number, const CameraRequest& request) : number_(number), request_(request) { open(); }
@@ -110,7 +110,7 @@ class Device {
   bool is_open() const { return capture_->isOpened(); }
   CameraMode mode();
 
-  // A device that was unplugged is opened again when it is back.
+  // An unplugged device is reopened when it is back.
   std::optional<GrabbedPicture> grab() {
     cv::Mat picture;
     if (!is_open() || !capture_->read(picture) || picture.empty()) {
@@ -137,7 +137,7 @@ void Device::open() {
   try {
     check_device(number_);
   } catch (const Error&) {
-    return;  // not there at present
+    return;  // missing at present
   }
   if (!capture_->open(number_, cv::CAP_V4L2)) return;
   capture_->set(cv::CAP_PROP_FOURCC, wanted_format(request_));
@@ -166,21 +166,23 @@ CameraMode Device::mode() {
 std::unique_ptr<Camera> open_live_camera(const std::string& number, const CameraRequest& request) {
   const int n = device_number(number);
   check_device(n);
-  // OpenCV waits 10 s for a frozen camera, and a program that ends has to wait with it.
+  // OpenCV waits 10 s for a frozen camera by default, which would delay the program's end.
   setenv("OPENCV_VIDEOIO_V4L_SELECT_TIMEOUT", "1", 0);
   const auto device = std::make_shared<Device>(n, request);
   if (!device->is_open())
-    throw Error(fmt::format("the camera /dev/video{} can't be opened: another program may be using "
-                            "it, or it is no camera (many have a second device for their data); "
-                            "cameras here: {}",
-                            n, list_of(video_devices())),
-                ExitCode::device_missing);
+    throw Error(
+        fmt::format("the camera /dev/video{} cannot be opened: another program may be using "
+                    "it, or it is not a camera (many have a second device for metadata); "
+                    "cameras here: {}",
+                    n, list_of(video_devices())),
+        ExitCode::device_missing);
   auto camera = std::make_unique<LiveCamera>([device] { return device->grab(); }, device->mode());
   if (!camera->next(first_picture_s))
-    throw Error(fmt::format("the camera /dev/video{} is there but gives no pictures in {:.0f} s: "
-                            "unplug it and plug it in again, on another port if need be",
-                            n, first_picture_s),
-                ExitCode::device_missing);
+    throw Error(
+        fmt::format("the camera /dev/video{} exists but delivers no pictures within {:.0f} s: "
+                    "unplug it and plug it in again, perhaps on another port",
+                    n, first_picture_s),
+        ExitCode::device_missing);
   return camera;
 }
 

@@ -1,4 +1,4 @@
-// Files as cameras: a folder of pictures, and a video.
+// A folder of pictures and a video file as cameras.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 constexpr double rate_without_times_hz = 30;
 
-// A number in a name counts as a number, frame_2 before frame_10: before each digit that counts
-// stands how many there are.
+// A sort key in which numbers compare by value, frame_2 before frame_10: each number is preceded by
+// its count of digits.
 std::string natural_key(std::string_view name) {
   constexpr std::string_view digits = "0123456789";
   std::string key;
@@ -45,7 +45,7 @@ std::vector<std::string> picture_names(const std::string& folder) {
       names.push_back(entry.path().filename().string());
   if (error)
     throw Error(
-        fmt::format("{} can't be read as a folder of pictures: {}", folder, error.message()));
+        fmt::format("{} cannot be read as a folder of pictures: {}", folder, error.message()));
   if (names.empty())
     throw Error(fmt::format("{} holds no pictures (png, jpg, bmp, pgm, ppm, tif)", folder));
   std::ranges::sort(names, {}, [](const std::string& name) {
@@ -61,7 +61,7 @@ InvalidFile wrong_time(const std::string& file, std::size_t line, const std::str
   return InvalidFile(std::move(mistakes));
 }
 
-// Time of each picture by its file's name.
+// Times of pictures by file name.
 std::map<std::string, double, std::less<>> read_times(const std::string& file) {
   const std::string text = read_text_file(file);
   const std::vector<std::string_view> lines = lines_of(text);
@@ -78,7 +78,7 @@ std::map<std::string, double, std::less<>> read_times(const std::string& file) {
                                    "as in frame_1.png,0.033; found \"{}\"",
                                    lines[i]));
     if (!times.emplace(cells[0], *t_s).second)
-      throw wrong_time(file, i + 1, fmt::format("{} has a time already", cells[0]));
+      throw wrong_time(file, i + 1, fmt::format("{} already has a time", cells[0]));
   }
   return times;
 }
@@ -96,7 +96,7 @@ std::vector<double> times_of(const std::string& folder, const std::vector<std::s
     const auto found = by_name.find(name);
     if (found == by_name.end())
       throw Error(
-          fmt::format("{} has no line for {}; add its time, or move the picture away", file, name));
+          fmt::format("{} has no line for {}; add its time, or remove the picture", file, name));
     if (!times.empty() && found->second <= times.back())
       throw Error(
           fmt::format("{}: times must increase from picture to picture in the order of "
@@ -139,13 +139,13 @@ class PictureFolder : public Camera {
       throw DamagedPicture(error.what(), names_[i], t_s);
     }
   }
-  // A camera's pictures are all alike: one that says that it is not is not decoded.
+  // A picture whose header has another size is not decoded.
   void refuse_another_size(std::size_t i) const {
     const auto size = size_in_header(path_of(i));
     if (!size || (size->width == first_.width && size->height == first_.height)) return;
     throw Error(fmt::format(
-        "{} is {} x {} pixels, but the first picture of its folder, {}, has {} x {}; a camera's "
-        "pictures are of one size",
+        "{} is {} x {} pixels, but the first picture of its folder, {}, has {} x {}; expected "
+        "pictures of one size",
         path_of(i), size->width, size->height, names_[0], first_.width, first_.height));
   }
   std::string path_of(std::size_t i) const { return (fs::path(folder_) / names_[i]).string(); }
@@ -182,13 +182,13 @@ class VideoFile : public Camera {
   CameraMode mode_;
   std::int64_t n_read_ = 0;
   double first_s_ = 0, last_s_ = 0;
-  std::optional<CameraPicture> ahead_;  ///< read one ahead: that is how the end shows
+  std::optional<CameraPicture> ahead_;  ///< read one ahead, to detect the end
 };
 
 VideoFile::VideoFile(const std::string& path) {
   if (!std::filesystem::exists(path)) throw Error(fmt::format("there is no video {}", path));
   const QuietCodecs quiet;
-  // The decoders that come with OpenCV; with any other backend a name with % in it means a series.
+  // Decoders built into OpenCV. Other backends interpret a % in the name as a series of files.
   for (const int backend : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG})
     if (!video_->isOpened()) video_->open(path, backend);
   if (video_->isOpened()) {
@@ -197,11 +197,11 @@ VideoFile::VideoFile(const std::string& path) {
     ahead_ = read();
   }
   if (!ahead_)
-    throw Error(
-        fmt::format("{} can't be read as a video: it is damaged, empty, not readable for "
-                    "you, or of a kind that OpenCV has no decoder for here; a Motion-JPEG "
-                    ".avi can be read everywhere",
-                    path));
+    throw Error(fmt::format(
+        "{} cannot be read as a video: it is damaged, empty, unreadable, or in a format "
+        "for which OpenCV has no decoder here; a Motion-JPEG "
+        ".avi can be read everywhere",
+        path));
   mode_.width_px = ahead_->image.width;
   mode_.height_px = ahead_->image.height;
 }
@@ -210,13 +210,13 @@ void VideoFile::refuse_absurd_size(const std::string& path) const {
   const double width = video_->get(cv::CAP_PROP_FRAME_WIDTH);
   const double height = video_->get(cv::CAP_PROP_FRAME_HEIGHT);
   if (width * height <= most_picture_pixels) return;
-  throw Error(fmt::format(
-      "{} says that its pictures have {:g} x {:g} pixels, and no camera's has more than "
-      "{:g}: it is not read",
-      path, width, height, most_picture_pixels));
+  throw Error(
+      fmt::format("{} declares pictures of {:g} x {:g} pixels, more than the limit of "
+                  "{:g}: it is not read",
+                  path, width, height, most_picture_pixels));
 }
 
-// The file's own times where they go on; a picture at least, by the rate, where they don't.
+// The file's times while they increase, else by the rate.
 double VideoFile::time_of(std::int64_t number) {
   const double rate_hz = mode_.rate_hz > 0 && std::isfinite(mode_.rate_hz) ? mode_.rate_hz : 30;
   const double own_s = video_->get(cv::CAP_PROP_POS_MSEC) / 1e3;

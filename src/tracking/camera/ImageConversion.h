@@ -1,4 +1,4 @@
-// Between the house's pictures and poses and OpenCV's.
+// Conversions between Heft's images and poses and OpenCV's.
 #pragma once
 
 #include <mutex>
@@ -9,11 +9,11 @@
 
 namespace heft {
 
-/// The image's own pixels, not to be written to.
+/// A view of the image's pixels, read-only.
 cv::Mat mat_of(const Image& image);
 
-/// While there is one, what OpenCV and its codecs say on stderr by themselves is not heard: their
-/// words are about their own code. Nor is what any other thread says there, so keep it short.
+/// While it exists, stderr is redirected to hide messages of OpenCV and its codecs about their own
+/// code. That affects other threads, too, so keep it short.
 class QuietCodecs {
  public:
   QuietCodecs();
@@ -23,10 +23,10 @@ class QuietCodecs {
 
  private:
   std::unique_lock<std::mutex> one_at_a_time_;
-  int stderr_;  ///< kept meanwhile; -1: it is not redirected
+  int stderr_;  ///< the original; -1: not redirected
 };
 
-/// In 1 channel.
+/// Converts to 1 channel.
 Image gray_of(const Image& image);
 
 /// A copy. @param mat 8 bits, 1 or 3 channels

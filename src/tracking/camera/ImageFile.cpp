@@ -94,7 +94,7 @@ int big_endian(const Bytes& bytes, std::size_t at, std::size_t n) {
 int little_endian(const Bytes& bytes, std::size_t at) {
   std::uint32_t value = 0;
   for (std::size_t i = 4; i-- > 0;) value = value << 8 | bytes.at(at + i);
-  const auto number = static_cast<std::int32_t>(value);  // BMP: negative where rows go down
+  const auto number = static_cast<std::int32_t>(value);  // BMP: negative for rows from the top
   return number == INT_MIN ? INT_MAX : std::abs(number);
 }
 
@@ -104,7 +104,7 @@ bool starts_with(const Bytes& bytes, std::string_view text) {
                     [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; });
 }
 
-// Segments, each with its length, up to the one that begins a frame.
+// Skips segments, each with its length, up to a frame header.
 std::optional<PictureSize> jpeg_size(const Bytes& bytes) {
   for (std::size_t at = 2; at + 9 < bytes.size() && bytes[at] == 0xFF;) {
     const unsigned char kind = bytes[at + 1];
@@ -126,8 +126,8 @@ std::optional<PictureSize> pnm_size(const Bytes& bytes) {
   }
   return size;
 }
-// Numbers of 16 or 32 bits in either byte order. The first directory may be anywhere in the file:
-// how many entries there are, and each one's 12 bytes: what it is, its kind, how many, the number.
+// Numbers of 16 or 32 bits in either byte order. The first directory may be anywhere in the file: a
+// number of entries, each of 12 bytes: tag, type, count, value.
 std::optional<PictureSize> tiff_size(const Bytes& header, std::istream& file) {
   const bool little = header[0] == 'I';
   const auto number = [&](const Bytes& bytes, std::size_t at, std::size_t n) {
@@ -159,9 +159,10 @@ std::optional<PictureSize> tiff_size(const Bytes& header, std::istream& file) {
 }  // namespace
 
 std::optional<PictureSize> size_in_header(const std::string& path) {
-  constexpr std::size_t most_bytes = 1 << 18;  // JPEGs may begin with a small picture of themselves
+  constexpr std::size_t most_bytes = 1 << 18;  // JPEGs may begin with a thumbnail
   std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) return std::nullopt;  // a pipe could keep us waiting
+  if (!fs::is_regular_file(path, ignored))
+    return std::nullopt;  // opening a pipe could wait forever
   Bytes bytes(most_bytes);
   std::ifstream file(path, std::ios::binary);
   file.read(reinterpret_cast<char*>(bytes.data()), most_bytes);
@@ -185,23 +186,22 @@ Image read_image(const std::string& path) {
   std::error_code ignored;
   if (!fs::exists(path, ignored)) throw Error(fmt::format("there is no picture {}", path));
   if (!fs::is_regular_file(path, ignored))
-    throw Error(fmt::format("{} is not a file, so no picture", path));
+    throw Error(fmt::format("{} is not a file, expected a picture", path));
   const PictureSize size = size_in_header(path).value_or(PictureSize{});
   if (static_cast<double>(size.width) * size.height > most_picture_pixels)
     throw Error(
-        fmt::format("{} says that it has {} x {} pixels, and no camera's picture has more "
-                    "than {:g}: it is not read",
-                    path, size.width, size.height, most_picture_pixels));
+        fmt::format("{} declares {} x {} pixels, more than the limit of {:g}: it is not read", path,
+                    size.width, size.height, most_picture_pixels));
   cv::Mat picture;
   try {
     const QuietCodecs quiet;
     codecs().read(path, picture);
-  } catch (const cv::Exception&) {  // what the codec says is about its own code, not the file
+  } catch (const cv::Exception&) {  // the codec's message is about its own code
   }
   if (picture.empty())
     throw Error(
-        fmt::format("{} can't be read as a picture: it is damaged, cut off, not readable "
-                    "for you, or of a kind other than {}",
+        fmt::format("{} cannot be read as a picture: it is damaged, truncated, unreadable, or in "
+                    "a format other than {}",
                     path, known_endings()));
   return image_from(picture);
 }
@@ -216,8 +216,8 @@ void write_image(const std::string& path, const Image& image) {
   }
   if (!written)
     throw Error(
-        fmt::format("{} can't be written: check that its folder is there, that you may "
-                    "write to it and that the disk is not full",
+        fmt::format("{} cannot be written: check that its folder exists and is writable, and that "
+                    "the disk is not full",
                     path));
 }
 

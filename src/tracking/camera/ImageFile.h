@@ -12,22 +12,22 @@ struct PictureSize {
   int width = 0, height = 0;
 };
 
-/// What a PNG, JPEG, BMP, PGM, PPM or TIFF says of itself before it is decoded; none for others,
-/// and where it says nothing.
+/// Size in the header of a PNG, JPEG, BMP, PGM, PPM or TIFF, without decoding; none for other
+/// formats and incomplete headers.
 std::optional<PictureSize> size_in_header(const std::string& path);
 
 /// A picture of more pixels is refused before it is decoded.
 inline constexpr double most_picture_pixels = 1e8;
 
 /// Gray pictures have 1 channel, others 3 (blue, green, red; transparency is dropped); 16-bit
-/// pictures are brought to 8 bits.
-/// @throws Error naming the file: not there, not a picture, damaged, or absurdly large
+/// pictures are converted to 8 bits.
+/// @throws Error naming the file: missing, not a picture, damaged, or too large
 Image read_image(const std::string& path);
 
-/// @throws Error naming the file and the reason: an ending that no format has, a full disk...
+/// @throws Error naming the file and the reason: an unknown extension, a full disk...
 void write_image(const std::string& path, const Image& image);
 
-/// Whether the file's ending is that of a picture that read_image knows.
+/// Whether the file's extension is that of a format for read_image.
 bool is_image_file(const std::string& path);
 
 }  // namespace heft

@@ -61,7 +61,7 @@ Eigen::Vector2d undistort(const Intrinsics& camera, const Eigen::Vector2d& pixel
       {(pixel.x() - camera.cx_px) / camera.fx_px, (pixel.y() - camera.cy_px) / camera.fy_px});
 }
 
-// Newton's steps: after one of 1e-7 the next would be of some 1e-14.
+// Newton's method: a step of 1e-7 would be followed by one of about 1e-14.
 Eigen::Vector2d undistort(const Intrinsics& camera, const Eigen::Vector2d& pixel,
                           const Eigen::Vector2d& near_ray) {
   constexpr int most_steps = 20;
@@ -70,7 +70,7 @@ Eigen::Vector2d undistort(const Intrinsics& camera, const Eigen::Vector2d& pixel
   for (int i = 0; i < most_steps; ++i) {
     const DistortedRay there = distort_with_derivative(camera, ray);
     const double determinant = there.pixel_by_ray.determinant();
-    // Past the fold of a lens model no ray gives this pixel; the last one is as good as any.
+    // Beyond the fold of a lens model no ray gives this pixel; returns the last one.
     if (!(determinant > 1e-6 * camera.fx_px * camera.fy_px)) break;
     const Eigen::Vector2d step = there.pixel_by_ray.inverse() * (pixel - there.pixel);
     ray += step;

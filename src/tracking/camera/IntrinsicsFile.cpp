@@ -1,4 +1,4 @@
-// A camera's file, as OpenCV's calibration programs write it.
+// A camera's file, in the format of OpenCV's calibration programs.
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
@@ -18,11 +18,11 @@ namespace heft {
 namespace {
 constexpr std::size_t largest_file_bytes = 4'000'000;
 constexpr int largest_side_px = 20000;
-// Of the picture's longer side: from a fisheye's 150 degrees and more to a telescope's 1.
+// Relative to the picture's longer side: from a fisheye of 150 degrees to a telephoto lens of 1.
 constexpr double shortest_focal = 0.05, longest_focal = 50;
 constexpr double strongest_distortion = 1000;
 
-// Whether pixels within half the picture's sides have rays. Towards corners even good fits fold.
+// Whether pixels in the middle half of the picture have rays. Towards corners even good fits fold.
 bool can_be_looked_back(const Intrinsics& camera) {
   for (const double x : {.25, .5, .75})
     for (const double y : {.25, .5, .75}) {
@@ -92,11 +92,12 @@ class Reader {
     std::ranges::copy(d, camera.distortion.begin());
     if (!can_be_looked_back(camera))
       mistake(
-          "distortion_coefficients fold the middle of the picture: no direction leads to some of "
-          "its pixels; calibrate again");
+          "distortion_coefficients fold the middle of the picture: some of its pixels have no "
+          "direction; "
+          "calibrate again");
   }
 
-  // A number that a file may lack.
+  // An optional number.
   std::optional<double> extra(const char* key, double least, double most, const char* expected) {
     if (!values_.contains(key)) return std::nullopt;
     const std::vector<double> value = numbers(key, expected);
@@ -106,7 +107,7 @@ class Reader {
     return std::nullopt;
   }
 
-  // The tone curve, where the file has it.
+  // The tone curve, if the file has one.
   std::optional<std::array<double, 3>> response() {
     constexpr const char* expected = "3 numbers from -2 to 2, as heft calibrate camera writes them";
     if (!values_.contains("response")) return std::nullopt;
@@ -118,7 +119,7 @@ class Reader {
     return std::nullopt;
   }
 
-  // Its message begins with the key.
+  // The message begins with the key.
   void mistake(std::string message) {
     const auto found = values_.find(message.substr(0, message.find(' ')));
     mistakes_.push_back({found == values_.end() ? SourcePlace{file_} : place_of(found->second.mark),
@@ -140,7 +141,7 @@ class Reader {
     for (const auto& entry : file) {
       if (entry.second.IsNull()) refuse(entry.first.Mark(), "has no value here");
       if (!values_.emplace(entry.first.Scalar(), Value{entry.first.Mark(), entry.second}).second)
-        refuse(entry.first.Mark(), "has this key for the second time");
+        refuse(entry.first.Mark(), "has this key twice");
     }
   }
 
@@ -203,7 +204,7 @@ std::string matrix_text(const char* key, std::size_t rows, std::size_t columns,
                      key, rows, columns, fmt::join(values, ", "));
 }
 
-// What OpenCV's own files don't have.
+// Keys that OpenCV's files lack.
 std::string extra_text(const Intrinsics& camera) {
   const CameraLocks& locks = camera.calibrated_at;
   std::string text;
@@ -230,8 +231,8 @@ Intrinsics parse_intrinsics(const std::string& text, const std::string& file) {
   reader.matrix(camera);
   reader.distortion(camera);
   camera.calibrated_at = {
-      reader.extra("exposure_s", 1e-6, 1, "the seconds that the shutter was open, up to 1"),
-      reader.extra("focus", 0, 1e6, "what the driver called the lens' place, 0 or more")};
+      reader.extra("exposure_s", 1e-6, 1, "the exposure time in seconds, up to 1"),
+      reader.extra("focus", 0, 1e6, "the driver's position of the lens, 0 or more")};
   camera.readout_s =
       reader.extra("readout_s", 0, 0.2, "the seconds from the first row to the last, up to 0.2")
           .value_or(0);

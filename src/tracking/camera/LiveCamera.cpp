@@ -23,7 +23,7 @@ LiveCamera::LiveCamera(Grab grab, CameraMode mode, double pause_s)
       pause_s_(pause_s),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
-// An exception that leaves a thread ends the program.
+// An exception must not leave the thread, which would end the program.
 void LiveCamera::run(const std::stop_token& stop) {
   std::string failure;
   try {
@@ -31,7 +31,7 @@ void LiveCamera::run(const std::stop_token& stop) {
   } catch (const std::exception& error) {
     failure = error.what();
   } catch (...) {
-    failure = "for no reason that it told";
+    failure = "for an unknown reason";
   }
   {
     const std::scoped_lock lock(mutex_);
@@ -67,7 +67,7 @@ std::optional<CameraPicture> LiveCamera::next(double timeout_s) {
   changed_.wait_for(lock, std::chrono::duration<double>(timeout_s),
                     [this] { return newest_.has_value() || !failure_.empty(); });
   if (!newest_ && !failure_.empty())
-    throw Error(fmt::format("the camera failed and gives no more pictures: {}", failure_),
+    throw Error(fmt::format("the camera failed and delivers no more pictures: {}", failure_),
                 ExitCode::device_missing);
   return std::exchange(newest_, std::nullopt);
 }

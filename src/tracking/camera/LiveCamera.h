@@ -1,6 +1,6 @@
-// A live camera apart from any device: takes pictures as they come and keeps the newest one
-// (drivers queue about four; whoever reads only when there is time sees the past), and what its
-// times and locks are worked out from.
+// A live camera, independent of the device: grabs pictures continuously and keeps the newest one,
+// because drivers queue about four, and reading only on demand would return old ones. Also computes
+// its capture times and locks.
 #pragma once
 
 #include <condition_variable>
@@ -17,20 +17,19 @@ struct GrabbedPicture {
   double capture_s = 0;
 };
 
-/// Of whatever grabs its pictures: a V4L2 device, or in tests what plays one.
+/// Uses any source of pictures: a V4L2 device, or a fake one in tests.
 class LiveCamera final : public Camera {
  public:
-  /// Waits for the device's next picture. None: it gives no pictures at present, try again; it must
-  /// come back within about a second, or the thread can't be ended.
+  /// Waits for the device's next picture. None: no picture at present, to be tried again. Must
+  /// return within about a second, so that the thread can be ended.
   using Grab = std::function<std::optional<GrabbedPicture>()>;
 
-  /// @param grab is called on a thread of its own only  @param pause_s after a grab without a
-  /// picture
+  /// @param grab called on a separate thread only  @param pause_s after a grab without a picture
   explicit LiveCamera(Grab grab, CameraMode mode = {}, double pause_s = 0.2);
 
-  /// As Camera::next. A picture that equals the one before it in every byte is none: real sensors
-  /// have noise, so it tells that the camera is frozen.
-  /// @throws Error when grab has thrown, after the last picture before: it is not asked again
+  /// See Camera::next. A picture whose bytes equal the last one's is dropped: real sensors have
+  /// noise, so that the camera is frozen.
+  /// @throws Error after the last picture if grab has thrown, which ends grabbing
   std::optional<CameraPicture> next(double timeout_s) override;
   bool ended() const override { return false; }
   CameraMode mode() const override { return mode_; }
@@ -46,25 +45,26 @@ class LiveCamera final : public Camera {
   double pause_s_;
   std::mutex mutex_;
   std::condition_variable_any changed_;
-  std::optional<CameraPicture> newest_;  ///< not given yet
-  std::string failure_;                  ///< what grab has thrown, if anything
+  std::optional<CameraPicture> newest_;  ///< not returned yet
+  std::string failure_;                  ///< message of grab's exception, if any
   std::int64_t n_kept_ = 0;
-  Image last_;           ///< of the thread alone
-  std::jthread thread_;  ///< last: it uses all others
+  Image last_;           ///< used by the thread only
+  std::jthread thread_;  ///< last member: it uses all others
 };
 
 /// Middle of the exposure on the monotonic clock.
-/// @param driver_s when the driver says that the picture was taken; it is believed where it lies in
-///   the second before arrival, else arrival counts
+/// @param driver_s the driver's time of the picture; used if it is within the second before
+/// arrival,
+///   otherwise the time of arrival is
 double capture_time_s(double driver_s, double arrival_s, double exposure_s);
 
-/// Reads and sets a device's controls by OpenCV's number of the property.
+/// Reads and sets a device's controls by OpenCV's property number.
 struct CameraControls {
   std::function<bool(int property, double value)> set;
   std::function<double(int property)> get;
 };
 
-/// Fixes exposure, focus and white balance, reads back what the driver made of it, and lists it.
+/// Locks exposure, focus and white balance, and records what the driver accepted.
 void lock_controls(const CameraControls& controls, const CameraRequest& request, CameraMode& mode);
 
 }  // namespace heft

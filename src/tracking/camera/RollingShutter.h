@@ -1,5 +1,5 @@
-// A rolling shutter reads its rows one after the other: row r of R at t + readout * r / R, t being
-// the picture's capture time. What moves meanwhile leans, shears and stretches, by millimeters.
+// Rolling shutter: row r of R is read at t + readout * r / R, where t is the picture's capture
+// time. Moving objects are sheared and stretched by millimeters.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace heft {
 
-/// How long after the first row the one through the body's origin is read, seconds.
+/// Delay from the first row to the one through the body's origin, seconds.
 double own_row_s(const Intrinsics& camera, const Pose& camera_from_body);
 
-/// Rays as they would have been at the time of the body's own row.
+/// Rays corrected to the time of the body's own row.
 class RowsHeld {
  public:
   /// @param velocity of the body's origin, in the camera's frame
@@ -29,10 +29,10 @@ class RowsHeld {
   double own_s_;
 };
 
-/// What was measured of a moving body, as if all of it had been seen when its own row was read:
-/// each point goes back by the way that its part of the body has moved since.
-/// @param camera_from_body good to some millimeters
-/// @param velocity of the body's origin, in the camera's frame; steady while the body's rows are
+/// Observations of a moving body, corrected to the time when its origin is read: each point is
+/// moved back along the motion of its part of the body since then.
+/// @param camera_from_body accurate to some millimeters
+/// @param velocity of the body's origin, in the camera's frame; constant while the body's rows are
 /// read
 std::vector<TagObservation> held_still(std::vector<TagObservation> tags, const Intrinsics& camera,
                                        const Pose& camera_from_body, const Velocity& velocity);

@@ -36,7 +36,7 @@ std::string driver_name(int number) {
   return name;
 }
 
-// V4L2 lists formats, sizes and rates by their index, until it has no more.
+// V4L2 lists formats, sizes and rates by index.
 template <typename Item, typename Take>
 void each_listed(int file, unsigned long request, Item item, const Take& take) {
   for (item.index = 0; ioctl(file, request, &item) == 0; ++item.index) take(item);
@@ -70,7 +70,7 @@ std::vector<std::string> modes_of(int file) {
     size.pixel_format = one.pixelformat;
     each_listed(file, VIDIOC_ENUM_FRAMESIZES, size, [&](const v4l2_frmsizeenum& of) {
       if (of.type == V4L2_FRMSIZE_TYPE_DISCRETE)
-        modes.push_back(fmt::format("{} {} x {}: {} pictures a second", letters_of(one.pixelformat),
+        modes.push_back(fmt::format("{} {} x {}: {} pictures/s", letters_of(one.pixelformat),
                                     of.discrete.width, of.discrete.height,
                                     fmt::join(rates_hz(file, of), ", ")));
     });
@@ -128,7 +128,7 @@ void check_device(int number, const std::string& folder) {
                             list_of(video_devices(folder))),
                 ExitCode::device_missing);
   if (access(path.c_str(), R_OK | W_OK) != 0)
-    throw Error(fmt::format("you may not use the camera {}: add yourself to the group video "
+    throw Error(fmt::format("no permission to use the camera {}: add yourself to the group video "
                             "(sudo usermod -aG video $USER), log out and in again",
                             path),
                 ExitCode::device_missing);

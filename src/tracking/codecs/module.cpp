@@ -1,4 +1,4 @@
-// heft-codecs.so: all that calls OpenCV's imgcodecs and videoio by name.
+// heft-codecs.so: the only file that links OpenCV's imgcodecs and videoio.
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 

@@ -9,13 +9,13 @@
 namespace heft {
 
 namespace {
-// Six of the pose (a turn about the camera's axes through the body's origin, then a shift), one of
-// the bias.
+// Six parameters of the pose (a rotation about the camera's axes through the body's origin, then a
+// shift) and the bias.
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Equations = NormalEquations<7>;
 
-constexpr double model_sd_px = 0.02;  // how straight and well placed printed edges are taken to be
-constexpr double behind = 1e12;       // cost of a pose that has a tag behind the camera
+constexpr double model_sd_px = 0.02;  // assumed accuracy of printed edges
+constexpr double behind = 1e12;       // cost of a pose with a tag behind the camera
 
 struct Unknowns {
   Pose pose;

@@ -22,20 +22,22 @@ constexpr double least_light_contrast = 0.002;
 constexpr double most_light = 3, saturated_light = 0.97, saturated_blur_sd_px = 0.01;
 constexpr double least_seen_noise = 0.7, clipped_noise_ratio = 0.4;  // gray levels; of black's
 constexpr double window_cells = 0.5, least_window_px = 1.0, most_window_px = 5;
-constexpr double corner_px = 2, most_corner_fraction = 0.2;  // left out: two edges blur there
+constexpr double corner_px = 2,
+                 most_corner_fraction = 0.2;  // left out, because two edges overlap there
 constexpr int least_pixels = 12;
 constexpr double within_noise_sd = 2.5;
-constexpr double least_lonely_sd = 3.6;  // of the blur, from the window's end to the next cell
+constexpr double least_lonely_sd =
+    3.6;  // from the window's end to the next cell, in SDs of the blur
 constexpr double least_blur_px = 0.2, most_blur_px = 3.5;
-constexpr double least_noise = 0.5;  // rounding to 8 bits alone leaves .3
+constexpr double least_noise = 0.5;  // rounding to 8 bits alone gives 0.3
 
 struct Sample {
   double along;    ///< u
   double outward;  ///< d, pixels
-  double value;    ///< stored
+  double value;    ///< stored value
 };
 
-// The predicted edge's own axes.
+// The axes of the predicted edge.
 struct EdgeAxes {
   Eigen::Vector2d start, direction, normal;
   double length, sag;
@@ -53,7 +55,7 @@ struct EdgeAxes {
   }
 };
 
-// Pixels in a band along the edge, row by row or column by column, whichever crosses it.
+// Pixels in a band along the edge, by rows or by columns, whichever crosses it.
 class Band {
  public:
   Band(const Image& gray, const EdgeAxes& axes, double half_width_px, int most_pixels)
@@ -108,7 +110,7 @@ class Band {
   int major_ = 0, minor_ = 1;
 };
 
-// How much the pixels of one side vary that are furthest from the edge, gray levels.
+// Variation of the pixels of one side that are furthest from the edge, gray levels.
 double plateau_noise(const std::vector<Sample>& samples, bool outside) {
   double furthest = 0;
   for (const Sample& sample : samples) furthest = std::max(furthest, std::abs(sample.outward));
@@ -124,8 +126,8 @@ double plateau_noise(const std::vector<Sample>& samples, bool outside) {
   return deviation / std::max(1, n);
 }
 
-// White at the end of the scale may be clipped: a noisy camera's then has lost its noise, which
-// black still has. Where nothing has noise (a drawing) the white is what it says.
+// White at the end of the scale may be clipped: it then lacks the noise that black has. Without any
+// noise (a drawing) it is not.
 bool is_clipped(const std::vector<Sample>& samples, bool bright_outside) {
   const double black_noise = plateau_noise(samples, !bright_outside);
   return black_noise > least_seen_noise &&
@@ -137,7 +139,7 @@ class StepFit {
  public:
   StepFit(const std::vector<Sample>& samples, const EdgeGuess& guess)
       : samples_(samples), guess_(guess), blur_sd_px_(guess.blur_sd_px) {
-    // Pixels far from the edge tell the light on its sides best.
+    // Light on both sides from pixels far from the edge.
     double light[2] = {0, 0}, weights[2] = {1e-9, 1e-9};
     for (const Sample& sample : samples) {
       const double weight = sample.outward * sample.outward;
@@ -149,20 +151,21 @@ class StepFit {
     per_blur_ = 1 / guess.blur_px;
     saturated =
         std::max(inside, outside) > saturated_light && is_clipped(samples, outside > inside);
-    // Above saturation the light, the blur and the place can't all be told from one flank.
+    // Above saturation one flank cannot determine light, blur and position together.
     if (saturated) blur_sd_px_ = saturated_blur_sd_px;
     most_light_ = saturated ? most_light : std::max({1.0, inside, outside});
     has_contrast =
         (guess.bright_outside ? outside - inside : inside - outside) > least_light_contrast;
   }
 
-  // @return the longest way an end of the edge moved, pixels
+  // @return the largest displacement of an end of the edge, pixels
   double step(bool drop_outliers) {
     Matrix6 normal_matrix = prior();
     Vector6 rhs = Vector6::Zero();
     rhs(blur) = normal_matrix(blur, blur) * (guess_.blur_px - unknowns(blur));
     const double clip = 2.5 * noise, per_variance = 1 / (noise * noise);
-    const double far = drop_outliers ? outlier_bound() : 1e9;  // another thing lies over the edge
+    const double far = drop_outliers ? outlier_bound()
+                                     : 1e9;  // excludes pixels where another object covers the edge
     double sum = 0;
     int n = 0;
     for (const Sample& sample : samples_) {
@@ -189,8 +192,8 @@ class StepFit {
     return std::abs(change(offset)) + std::abs(change(slope));
   }
 
-  // With what the fit's own unknowns, and a blur that is symmetric but not normal, could explain
-  // taken out: a lens' tails and a pixel's square weigh much on stored values near black.
+  // Residuals without the parts that the fit's unknowns, and a symmetric but not normal blur,
+  // explain: a lens's tails and a pixel's square shape affect stored values near black strongly.
   ToneEvidence tone_evidence() const {
     using Vector8 = Eigen::Matrix<double, 8, 1>;
     Eigen::Matrix<double, 8, 8> own = Eigen::Matrix<double, 8, 8>::Zero();
@@ -209,7 +212,7 @@ class StepFit {
       const ToneBend by_bend = guess_.curve.stored_by_bend(modeled);
       const double q =
           (sample.outward - unknowns(offset) - unknowns(slope) * sample.along) / unknowns(blur);
-      // Hermite's polynomials over the derivative by the place: what the next cumulants do.
+      // Hermite polynomials times the derivative by position: the effect of the next cumulants.
       const double q2 = q * q, step = -by_six(offset) * unknowns(blur);
       Vector8 by;
       by << by_six, step * q * (q2 - 3), step * q * ((q2 - 10) * q2 + 15);
@@ -253,7 +256,7 @@ class StepFit {
   bool has_contrast = false, saturated = false;
 
  private:
-  // What is known before: the blur. The rest is damped.
+  // Prior of the blur; the other parameters are damped.
   Matrix6 prior() const {
     Vector6 weights;
     weights << 1e-3, 1e-3, 1, 1, 100, 1 / (blur_sd_px_ * blur_sd_px_);
@@ -279,9 +282,9 @@ class StepFit {
   double blur_sd_px_, most_light_ = 1, per_blur_ = 1;
 };
 
-// Two points at which a straight line's errors are independent: at its best known place, plus and
-// minus the distance where offset and slope weigh the same.
-// @param leak_px how far the light of the tag's next cells may have moved the edge
+// Two points at which a straight line's errors are independent: at its best determined position,
+// plus and minus the distance where offset and slope have the same weight.
+// @param leak_px by how much the light of the tag's next cells may have moved the edge
 void place_points(FittedEdge& edge, const EdgeAxes& axes, const StepFit& fit, double leak_px) {
   const Matrix6 covariance = fit.information.inverse();
   const double slope_variance = covariance(slope, slope);
@@ -306,7 +309,7 @@ double moved_px(const StepFit& fit) {
   return std::abs(fit.unknowns(offset)) + std::abs(fit.unknowns(slope));
 }
 
-// What a cell's width away from the edge blurs into the outer half of the window.
+// The amount of light from a cell's width away that blur brings into the outer half of the window.
 double leak(double cell_px, double blur_px) {
   constexpr double cautious = 2;
   return cautious * blur_px * normal_at(-(1 - window_cells) * cell_px / blur_px).below;
@@ -352,7 +355,7 @@ FittedEdge fit_edge(const Image& gray, const EdgeGuess& first_guess, int most_pi
     if (moved_px(fit) < recenter_px) break;
     guess.start_px = edge.start_px;
     guess.end_px = edge.end_px;
-    // What a saturated edge seems to be blurred by is a guess, and must not grow on itself.
+    // The blur of a saturated edge is a guess, and must not reinforce itself.
     if (fit.saturated) continue;
     guess.blur_px = std::clamp(edge.blur_px, 0.5 * guess.blur_px, 2 * guess.blur_px);
   }

@@ -1,14 +1,14 @@
-// Where a tag's edge lies, to a hundredth of a pixel. The pixels around a predicted edge are fitted
-// by what a camera makes of a straight step from black to white:
+// Measures a tag's edge to a hundredth of a pixel. The pixels around a predicted edge are fitted by
+// a camera's image of a straight step from black to white:
 //
 //   stored value = tone_curve((dark + contrast * Phi(q / blur)) * (1 + gain * u)),
 //   q = d - offset - slope * u
 //
-// with d the pixel's distance from the predicted edge, outwards; u its place along it, -1...1; Phi
-// the normal distribution function. Six unknowns, Gauss-Newton with Huber weights. Because light is
-// blurred and not stored values, the tone curve no longer shrinks black tags (by .28 px an edge on
-// stored values), and because residuals are of stored values, each pixel counts as much as its
-// noise allows; saturated pixels don't pull.
+// with d the pixel's distance from the predicted edge, outwards; u its position along it, -1...1;
+// Phi the normal distribution function. Six unknowns, Gauss-Newton with Huber weights. Because blur
+// acts on light, not on stored values, black tags do not shrink (as by 0.28 px per edge with stored
+// values). Because residuals are of stored values, pixels have equal noise, and saturated pixels
+// have no influence.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,44 +19,44 @@
 
 namespace heft {
 
-/// What pixels tell about their camera's tone curve, near the one that they were fitted with. The
-/// cost of a change of its bend is change^T information change - 2 rhs^T change.
+/// Information of pixels on their camera's tone curve, near the one used in the fit. The cost of a
+/// change of its bend is change^T information change - 2 rhs^T change.
 struct ToneEvidence {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   ToneBend rhs = ToneBend::Zero();
-  /// How far the edge that was found moves outwards with the bend, pixels.
+  /// Outward displacement of the fitted edge by the bend, pixels.
   ToneBend outward = ToneBend::Zero();
 };
 
-/// An edge where it is expected.
+/// A predicted edge.
 struct EdgeGuess {
   Eigen::Vector2d start_px, end_px;  ///< outside is to the left of start -> end as seen on screen
-  double sag_px = 0;                 ///< how far lens distortion bends the edge's middle outwards
+  double sag_px = 0;                 ///< outward bending of the edge's middle by lens distortion
   double cell_px = 5;                ///< width of the tag's cells across the edge
-  double blur_px = 0.7;              ///< expected sd of the blur
-  double blur_sd_px = 0.2;           ///< how sure that is
+  double blur_px = 0.7;              ///< expected SD of the blur
+  double blur_sd_px = 0.2;           ///< its standard error
   bool bright_outside = true;
   double noise =
-      0;  ///< sd of the picture's, gray levels, as far as that is known: no fault of edges
+      0;  ///< SD of the picture's noise if known, gray levels; does not lower the quality
   ToneCurve curve{};         ///< the camera's
-  bool tells_curve = false;  ///< what it says of the curve is wanted, too
+  bool tells_curve = false;  ///< whether evidence on the curve is required
 };
 
 struct FittedEdge {
-  /// Two points on the edge whose errors across it are independent and have the standard deviation
-  /// sd_px each: they carry all that the fit knows of the edge.
+  /// Two points on the edge whose errors across it are independent with standard deviation sd_px:
+  /// they contain all information of the fit on the edge.
   std::array<Eigen::Vector2d, 2> points_px;
-  Eigen::Vector2d start_px, end_px;  ///< the guess' ends, moved across the edge onto it
+  Eigen::Vector2d start_px, end_px;  ///< the guess's ends, moved across the edge onto it
   double sd_px = 0;
   double dark = 0, bright = 0;  ///< stored values on both sides
   double blur_px = 0;
-  double noise = 0;        ///< rms of what the fit leaves, gray levels
-  bool saturated = false;  ///< its bright side is clipped: a less certain edge
-  double quality = 0;      ///< fraction of its pixels that look like an edge; 0 without contrast
-  ToneEvidence tone;       ///< where it was asked for
+  double noise = 0;        ///< rms residual of the fit, gray levels
+  bool saturated = false;  ///< its bright side is clipped, so that it is less certain
+  double quality = 0;      ///< fraction of its pixels that match an edge; 0 without contrast
+  ToneEvidence tone;       ///< if required
 };
 
-/// @param gray 1 channel  @param most_pixels rows or columns are left out of longer edges
+/// @param gray 1 channel  @param most_pixels rows or columns are skipped on longer edges
 FittedEdge fit_edge(const Image& gray, const EdgeGuess& guess, int most_pixels);
 
 }  // namespace heft

@@ -1,4 +1,4 @@
-// The normal distribution function and its density by table.
+// The normal distribution function and its density by table lookup.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@ struct Normal {
   double below, density;
 };
 
-// Each place, with the first and second order between them.
+// Values with their first and second derivatives at even steps.
 inline constexpr double normal_end = 5, normal_steps_per_unit = 64;
 using NormalTable =
     std::array<Normal, static_cast<std::size_t>(2 * normal_end * normal_steps_per_unit) + 1>;
 extern const NormalTable normal_table;
 
-/// To 1e-5. Some hundred thousand times a picture.
+/// Accurate to 1e-5. Called some hundred thousand times per picture.
 inline Normal normal_at(double x) {
   if (x <= -normal_end) return {0, 0};
   if (x >= normal_end) return {1, 0};

@@ -11,18 +11,17 @@
 namespace heft {
 
 namespace {
-// Two wrong bits would cost 35 MB of tables and let in more false tags.
+// Correcting two bits would need tables of 35 MB and accept more false tags.
 constexpr int bits_corrected = 1;
-// libapriltag's own thresholding works in tiles and needs a few of them.
+// libapriltag's thresholding works in tiles and needs several of them.
 constexpr int least_side_px = 16;
-// Tiles with less contrast than this are not searched for edges. The library's own 5 levels lie
-// within a camera's noise: it then follows the edges of noise everywhere, which takes most of its
-// time and finds no tag more. Dim pictures, and pale prints, are searched as closely as their noise
-// allows.
+// Tiles with less contrast are not searched for edges. The library's 5 levels are within a camera's
+// noise, so that it follows edges of noise everywhere, which takes most of its time and finds no
+// more tags. Dim pictures and pale prints are searched down to their noise.
 constexpr int usual_contrast = 30, library_contrast = 5;
 constexpr double contrast_fraction = 0.25;  // of the whole picture's
-constexpr double noise_range_sd = 8;        // between the extremes of a tile and its neighbors
-// Its pixels' centers lie at halves.
+constexpr double noise_range_sd = 8;        // expected range of noise in a tile and its neighbors
+// The library's pixel centers are at halves.
 constexpr double center_offset_px = 0.5;
 
 struct DestroyDetector {
@@ -41,7 +40,7 @@ Region clipped(const Region& region, const Image& image) {
   return {left, top, right - left, bottom - top};
 }
 
-// How often each gray level, or difference of two, is there.
+// Counts of gray levels, or of differences.
 struct Histogram {
   std::array<int, 256> counts{};
   int n = 0;
@@ -50,7 +49,7 @@ struct Histogram {
     ++counts[static_cast<std::size_t>(value)];
     ++n;
   }
-  // The value below which a fraction of them lies; of none 0.
+  // The value below which a fraction of them is; 0 if there are none.
   int quantile(double fraction) const {
     if (n == 0) return 0;
     int before = static_cast<int>(fraction * (n - 1)), value = 0;
@@ -78,7 +77,7 @@ int searched_contrast(const Image& gray) {
   return std::clamp(static_cast<int>(wanted), library_contrast, usual_contrast);
 }
 
-// The library lists them from the bottom left, counter-clockwise.
+// The library lists corners from the bottom left, counter-clockwise.
 DetectedTag converted(const apriltag_detection_t& found, const Region& region) {
   DetectedTag tag{found.id, {}, static_cast<double>(found.decision_margin)};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -104,7 +103,7 @@ Region whole(const Image& image) {
 struct TagDetector::Impl {
   TagFamilyHandle family;
   std::unique_ptr<apriltag_detector_t, DestroyDetector> detector{apriltag_detector_create()};
-  std::vector<std::uint8_t> pixels;  ///< of the region, rows together
+  std::vector<std::uint8_t> pixels;  ///< of the region, in contiguous rows
 };
 
 TagDetector::TagDetector(const std::string& family, double decimate)

@@ -1,4 +1,4 @@
-// Finds and reads the tags of one family in a gray picture: libapriltag behind a small face.
+// Finds and reads the tags of one family in a gray picture, by libapriltag.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,13 +11,13 @@
 
 namespace heft {
 
-/// A tag as the detector saw it: good to about half a pixel, and too small where the picture's tone
-/// curve bleeds white into black (EdgeFit.h does better).
+/// A detected tag: accurate to about half a pixel, and too small where blur and the tone curve
+/// extend white into black (EdgeFit.h is more accurate).
 struct DetectedTag {
   int id = 0;
   /// The upright tag's top left, top right, bottom right, bottom left; pixel centers are integers.
   std::array<Eigen::Vector2d, 4> corners_px;
-  double decision_margin = 0;  ///< how clearly its bits were black or white, gray levels
+  double decision_margin = 0;  ///< mean contrast of its bits, gray levels
 };
 
 /// A part of a picture.
@@ -28,30 +28,30 @@ struct Region {
 /// The whole picture.
 Region whole(const Image& image);
 
-/// Standard deviation of a picture's noise, gray levels, from how neighbors on a coarse grid
-/// differ.
+/// Standard deviation of a picture's noise, gray levels, from differences of neighbors on a coarse
+/// grid.
 double noise_of(const Image& gray);
 
-/// Where edges of tags are searched.
+/// Where to search for tags' edges.
 enum class EdgeSearch {
-  above_noise,  ///< where there is the contrast of a print in the picture's light: several times
-                ///< faster, and finds no fewer but those that lie in a deep shadow
-  everywhere    ///< as libapriltag comes: in a camera's noise, too
+  above_noise,  ///< above the picture's noise: several times faster, misses only tags in deep
+                ///< shadow
+  everywhere    ///< libapriltag's default: also in noise
 };
 
-/// One detector is used by one thread and has a family of its own (libapriltag aborts, or goes
-/// blind, otherwise).
+/// Not thread-safe. Each detector has its own family, without which libapriltag aborts or finds
+/// nothing.
 class TagDetector {
  public:
-  /// @param decimate quads are searched on a picture smaller by this factor, at least 1
-  /// @throws Error (usage) for a family that the library does not have
+  /// @param decimate quads are searched on a picture reduced by this factor, at least 1
+  /// @throws Error (usage) for an unknown family
   TagDetector(const std::string& family, double decimate);
   ~TagDetector();
   TagDetector(TagDetector&&) noexcept;
   TagDetector& operator=(TagDetector&&) noexcept;
 
-  /// Tags whose whole border lies in the region. @param gray 1 channel; the camera's own values,
-  /// not linear light
+  /// Tags whose whole border is in the region. @param gray 1 channel, the camera's values (not
+  /// linear light)
   std::vector<DetectedTag> detect(const Image& gray, const Region& region,
                                   EdgeSearch search = EdgeSearch::above_noise);
 

@@ -20,7 +20,7 @@ Eigen::Vector2d through(const Eigen::Matrix3d& homography, const Eigen::Vector2d
   return (homography * place.homogeneous()).hnormalized();
 }
 
-// How far the lens bends a straight edge's middle outwards.
+// Outward bending of a straight edge's middle by the lens.
 double sag_px(const Intrinsics& camera, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d middle = (undistort(camera, a) + undistort(camera, b)) / 2;
   const Eigen::Vector2d along = (b - a).normalized();
@@ -40,7 +40,7 @@ double cell_px(const Eigen::Matrix3d& pixel_from_square, int n_cells, std::size_
   return std::abs(in.x() * along.y() - in.y() * along.x());
 }
 
-// Where the lines through two edges meet.
+// The intersection of the lines through two edges.
 Eigen::Vector2d crossing(const FittedEdge& one, const FittedEdge& other) {
   const Eigen::Vector2d a = one.end_px - one.start_px, b = other.end_px - other.start_px;
   const Eigen::Vector2d between = other.start_px - one.start_px;
@@ -52,14 +52,13 @@ bool tells_blur(const FittedEdge& edge) {
   return edge.quality > 0 && !edge.saturated;
 }
 
-// Keeps the guess where the fit found no edge.
+// Keeps the guess if the fit found no edge.
 void take_edge(FittedEdge& edge, const FittedEdge& fitted) {
   edge.quality = 0;
   if (fitted.quality >= least_edge_quality) edge = fitted;
 }
 
-// An edge that was not found is as dark, as bright and as blurred as those that were; opposite
-// edges are blurred alike.
+// A missing edge gets the brightness and blur of the others; opposite edges have the same blur.
 void describe_missing(std::array<FittedEdge, 4>& edges) {
   const auto is_missing = [](const FittedEdge& edge) { return edge.blur_px == 0; };
   const auto n = static_cast<double>(4 - std::ranges::count_if(edges, is_missing));
@@ -80,7 +79,7 @@ void describe_missing(std::array<FittedEdge, 4>& edges) {
   }
 }
 
-// The guess with what the first fits told: opposite edges are blurred alike, by motion, too.
+// The guess improved by the first fits: opposite edges have the same blur, also from motion.
 EdgeGuess informed(EdgeGuess guess, const std::array<FittedEdge, 4>& edges, std::size_t edge) {
   guess.start_px = edges[edge].start_px;
   guess.end_px = edges[edge].end_px;
@@ -198,7 +197,7 @@ std::optional<MeasuredTag> without_covered_edges(MeasuredTag tag, double least_q
     if (edge.quality >= least_quality) {
       ++n_clear;
     } else {
-      edge.dark = edge.bright = edge.blur_px = 0;  // described like the clear ones
+      edge.dark = edge.bright = edge.blur_px = 0;  // will get the values of the clear ones
       edge.sd_px = std::numeric_limits<double>::infinity();
     }
   }

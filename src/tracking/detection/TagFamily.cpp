@@ -40,8 +40,8 @@ constexpr std::array families{
     FamilyEntry{"tagStandard52h13", tagStandard52h13_create, tagStandard52h13_destroy},
 };
 
-// Seen from the outside inwards: cells that carry no bit (corners of round tags) are paper, then a
-// ring around the detected border and the border itself, one white, one black.
+// Cells without bits: corners of round tags are paper; the detected border and the ring around it
+// are one black, one white.
 bool is_white_without_bits(const TagPattern& pattern, int column, int row) {
   const int from_edge =
       std::min({column, row, pattern.n_cells - 1 - column, pattern.n_cells - 1 - row});
@@ -56,7 +56,8 @@ void paint_borders(TagPattern& pattern) {
       pattern.white.push_back(is_white_without_bits(pattern, column, row));
 }
 
-// Bits count from the code's most significant one; their places, from the detected border.
+// Bits are ordered from the code's most significant one; positions are relative to the detected
+// border.
 void paint_bits(TagPattern& pattern, const apriltag_family_t& family, std::uint64_t code) {
   const int margin = pattern.margin_cells();
   for (std::uint32_t bit = 0; bit < family.nbits; ++bit) {

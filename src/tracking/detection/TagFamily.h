@@ -1,5 +1,5 @@
-// The tag families of libapriltag: their names, how many tags they have and which cells of a tag
-// are white. Those who draw tags (sheets, the synthetic camera) and those who find them use it.
+// The tag families of libapriltag: names, numbers of tags, and the white cells of a tag. Used for
+// drawing (sheets, the synthetic camera) and for detection.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct apriltag_family;
 
 namespace heft {
 
-/// What is printed: n_cells x n_cells squares, the quiet zone or outer data ring included.
+/// The print: n_cells x n_cells squares, including the quiet zone or outer data ring.
 struct TagPattern {
   struct Cell {
     int column, row;
@@ -22,32 +22,32 @@ struct TagPattern {
   int border_cells = 0;
   bool bright_outside = true;  ///< of the detected border
   std::vector<bool> white;     ///< rows from the top
-  std::vector<Cell> data;      ///< the cells that tell tags apart
+  std::vector<Cell> data;      ///< the cells that distinguish tags
 
   bool is_white(int column, int row) const {
     return white[static_cast<std::size_t>(row * n_cells + column)];
   }
   /// Cells between a side of the pattern and the detected border.
   int margin_cells() const { return (n_cells - border_cells) / 2; }
-  /// How far a print whose detected corners are side_m apart reaches beyond them.
+  /// Width of the print beyond the detected corners, which are side_m apart.
   double margin_m(double side_m) const { return margin_cells() * side_m / border_cells; }
 };
 
 /// "tag36h11"...
 std::vector<std::string_view> tag_family_names();
 
-/// How many tags a family has: ids are 0 ... n - 1.
-/// @throws Error (usage) for a family that there is not, naming the nearest
+/// Number of tags of a family: ids are 0 ... n - 1.
+/// @throws Error (usage) for an unknown family, suggesting the most similar
 int n_tags_of(const std::string& family);
 
-/// @throws Error (usage) for a family that there is not; Error for an id that it does not have
+/// @throws Error (usage) for an unknown family; Error for an unknown id
 TagPattern tag_pattern(const std::string& family, int id);
 
-/// The library's own family, destroyed with the handle. One for each detector: a detector that is
-/// destroyed silences the others of its family.
+/// The library's family, destroyed with the handle. One per detector: destroying a detector
+/// disables the others of its family.
 using TagFamilyHandle = std::unique_ptr<apriltag_family, void (*)(apriltag_family*)>;
 
-/// @throws Error (usage) for a family that there is not
+/// @throws Error (usage) for an unknown family
 TagFamilyHandle make_tag_family(const std::string& family);
 
 }  // namespace heft

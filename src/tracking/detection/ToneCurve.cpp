@@ -77,7 +77,7 @@ struct ToneCurve::Tables {
     if (bend.isZero()) be_srgb();
   }
 
-  // Every whole stored value is exact.
+  // Exact for every whole stored value.
   void be_srgb() {
     stored = srgb_table;
     for (std::size_t i = 0; i <= n; ++i)

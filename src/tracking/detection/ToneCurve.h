@@ -1,12 +1,12 @@
-// How cameras store light in 8 bits. Blur mixes light, not stored values, so edges are modeled on
-// light and compared with what is stored. Most cameras store sRGB (IEC 61966-2-1), or nearly; the
-// others' curves have other slopes in the dark and shoulders below white. With h(v) the light of a
+// Tone curves: how cameras store light in 8 bits. Blur mixes light, not stored values, so edges are
+// modeled in light and compared with stored values. Most cameras store sRGB (IEC 61966-2-1), or
+// nearly; others have other slopes in the dark and shoulders below white. With h(v) the light of a
 // stored value v, 0...1,
 //
 //   h'(v) = h'_sRGB(v) exp(sum of bend_k * p_k(v)),   p = ln(v + .03), -ln(1.1 - v), 2 v - 1
 //
-// so a curve rises everywhere, whatever its bend, and another power, a shoulder and contrast in the
-// middle need a number or two. Scale and offset of light are without meaning.
+// so that a curve always rises, and another power, a shoulder or mid-tone contrast takes one or two
+// numbers. Scale and offset of light are arbitrary.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,12 +15,12 @@
 
 namespace heft {
 
-/// A stored value, 0...255, and its derivative by the light.
+/// A stored value, 0...255, and its derivative by light.
 struct Stored {
   double value, by_light;
 };
 
-/// Stored values at even steps of light; between them the tangent is off by less than 1/50 level.
+/// Stored values at even steps of light; the tangent in between is accurate to 1/50 level.
 struct StoredTable {
   static constexpr int steps = 4096;
   static constexpr double white = 255;
@@ -29,8 +29,7 @@ struct StoredTable {
   Stored operator()(double light) const {
     if (light >= 1) return {white, 0};
     const double slope_in_dark = at.front().by_light;
-    if (!(light > 0))
-      return {slope_in_dark * light, slope_in_dark};  // what is no number stays none
+    if (!(light > 0)) return {slope_in_dark * light, slope_in_dark};  // NaN stays NaN
     const double place = light * steps;
     const int nearest = static_cast<int>(place + 0.5);
     const Stored& there = at[static_cast<std::size_t>(nearest)];
@@ -38,7 +37,7 @@ struct StoredTable {
   }
 };
 
-/// sRGB. @param light 1 is where the sensor saturates; above, the derivative is 0
+/// sRGB. @param light 1 is saturation; above it the derivative is 0
 Stored stored_of_light(double light);
 
 /// Light, 0...1, of a stored value, 0...255: sRGB.
@@ -46,7 +45,7 @@ double light_of_stored(double value);
 
 using ToneBend = Eigen::Vector3d;
 
-/// A camera's own curve; copies share their tables.
+/// A camera's curve; copies share their tables.
 class ToneCurve {
  public:
   /// @param bend zero: sRGB
@@ -55,14 +54,14 @@ class ToneCurve {
   const ToneBend& bend() const { return bend_; }
   Stored stored(double light) const { return (*stored_)(light); }
   double light(double value) const;
-  /// How the value that is stored for a light moves with the bend.
+  /// Derivative of a light's stored value by the bend.
   ToneBend stored_by_bend(double value) const;
 
  private:
   struct Tables;
   ToneBend bend_;
   std::shared_ptr<const Tables> tables_;
-  const StoredTable* stored_;  ///< theirs
+  const StoredTable* stored_;  ///< in tables_
 };
 
 }  // namespace heft

@@ -9,14 +9,13 @@
 namespace heft {
 
 namespace {
-// What cameras differ by: a power of 1.8 is about -.4 of the first bend, a film's shoulder 1 of the
-// second.
+// Typical bends: a power of 1.8 is about -0.4 of the first, a film's shoulder 1 of the second.
 const ToneBend usual_bend_sd(1, 0.3, 0.3);
-// Print grows or shrinks a little, too.
+// Ink spread also changes the size of tags.
 constexpr double least_bias_sd_px = 0.01;
-// Neither is a picture's noise all that is wrong with an edge's profile.
+// Errors of an edge's profile are not only noise.
 constexpr double shape_weight = 0.5;
-// Of what was learned before, a picture: a camera may set its curve anew.
+// Weight of earlier pictures per picture, because a camera may change its curve.
 constexpr double memory = 0.97;
 constexpr double worth_measuring_px = 0.01;
 constexpr double most_bend = 2, most_saturated = 0.1;
@@ -32,7 +31,7 @@ void PictureTone::add(const FittedEdge& edge, double outward) {
 }
 
 bool ToneLearner::learn(const PictureTone& seen, double bias_px, double bias_sd_px) {
-  // Where white is clipped, what is left is a choice of the edges that happen not to be.
+  // With much clipped white, only an unrepresentative part of the edges is left.
   if (seen.n_edges == 0 || most_saturated * seen.n_edges < seen.n_saturated) return false;
   const ToneBend outward = seen.sum.outward / seen.n_edges, at = curve_.bend();
   const double bias_variance = bias_sd_px * bias_sd_px + least_bias_sd_px * least_bias_sd_px;
@@ -44,8 +43,8 @@ bool ToneLearner::learn(const PictureTone& seen, double bias_px, double bias_sd_
   const ToneBend change = (before + seen_).ldlt().solve(rhs);
   if (!change.allFinite()) return false;
   bend_ = (at + change).cwiseMax(-most_bend).cwiseMin(most_bend);
-  // Most cameras' curve is sRGB, and what then seems bent is what the model of edges, the print and
-  // rounding to levels do to them.
+  // Most cameras' curve is sRGB, and then the estimated bend comes from the model of edges, the
+  // print, and rounding to levels.
   curve_ = ToneCurve(shrinkage_factor(outward.dot(bend_) / least_bias_sd_px) * bend_);
   return std::abs(outward.dot(curve_.bend() - at)) > worth_measuring_px;
 }

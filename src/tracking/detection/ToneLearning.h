@@ -1,6 +1,6 @@
-// A camera's tone curve, learned while it looks at the board. What blur and a wrong curve do to an
-// edge tells twice: black tags look smaller or larger than the gaps between them, and each edge's
-// profile from black to white is lopsided. Both are put together with what earlier pictures told.
+// Learns a camera's tone curve from pictures of the board. A wrong curve has two effects on blurred
+// edges: black tags look smaller or larger than the gaps between them, and each edge's profile from
+// black to white is asymmetric. Both are combined with earlier pictures' information.
 #pragma once
 
 #include "tracking/detection/EdgeFit.h"
@@ -12,31 +12,32 @@ struct PictureTone {
   ToneEvidence sum;
   int n_edges = 0, n_saturated = 0;
 
-  /// @param outward -1 for an edge whose white lies inside
+  /// @param outward -1 for an edge with white inside
   void add(const FittedEdge& edge, double outward);
 };
 
 class ToneLearner {
  public:
-  /// @param start where looking for it begins: learned at another time, or zero, sRGB. It weighs
-  /// nothing against what pictures tell, and is all there is while they tell nothing.
+  /// @param start initial curve: learned before, or zero, sRGB. It has no weight against pictures,
+  /// and is used until they carry information.
   explicit ToneLearner(const ToneBend& start = ToneBend::Zero()) : curve_(start) {}
 
   const ToneCurve& curve() const { return curve_; }
 
   bool is_told() const { return !information_.isZero(); }
 
-  /// Once more for the same picture while its edges still move, each time measured with the last
-  /// curve. @param bias_px how much larger black tags look than they are, an edge, on average
-  /// @return whether edges move by so much that measuring anew is worth the time
+  /// May be repeated for the same picture while its edges move, measured with the last curve each
+  /// time.
+  /// @param bias_px how much larger black tags look than they are, per edge, on average
+  /// @return whether edges move by so much that repeating the measurement is worth the time
   bool learn(const PictureTone& seen, double bias_px, double bias_sd_px);
-  /// What was learned last is kept for the pictures to come.
+  /// Keeps what was learned from this picture.
   void next_picture();
 
  private:
   ToneCurve curve_;
-  ToneBend bend_ = ToneBend::Zero();  ///< likeliest; the curve's is nearer to sRGB
-  // Of the pictures before, and of this one.
+  ToneBend bend_ = ToneBend::Zero();  ///< most likely; the curve's is nearer to sRGB
+  // Of the previous pictures, and of this one:
   ToneBend mean_ = ToneBend::Zero();
   Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero(), seen_ = Eigen::Matrix3d::Zero();
 };

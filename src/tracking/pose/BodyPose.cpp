@@ -11,23 +11,23 @@ namespace heft {
 
 namespace {
 constexpr std::size_t most_start_tags = 3, most_adjusted = 3;
-constexpr double capped_px = 8;     // a corner that is further off says no more
-constexpr double worst_rms_px = 3;  // no pose of this body
-constexpr double apart_rad = 0.14;  // poses that differ by less are one
+constexpr double capped_px = 8;     // limit of a corner's error in the cost
+constexpr double worst_rms_px = 3;  // worse is not a pose of this body
+constexpr double apart_rad = 0.14;  // poses that differ by less count as one
 constexpr double undecided = 12;    // difference of costs, in variances of the better fit
-// White that is clipped may be any brightness: on a single tag that is millimeters of depth.
+// Clipped white has an unknown brightness, which on a single tag is millimeters of depth.
 constexpr double saturated_quality = 0.25;
-// What halves the quality: residuals, and how uncertain the body's place is, which for a single
-// small or slanted tag is several times what it is for tags on two faces.
+// Values that halve the quality: residuals, and the SD of the body's position, which for a single
+// small or slanted tag is several times that for tags on two faces.
 constexpr double halved_at_px = 1.0, halved_at_m = 0.0005;
-// ... and where its farthest corner may be, which a wrong tilt takes away: with a pose that leaves
-// it open by a centimeter nothing can be done.
+// ... and the SD of its farthest corner, which a wrong tilt increases: a pose with an SD of a
+// centimeter there is useless.
 constexpr double halved_at_end_m = 0.002;
 constexpr double same_pose_rad = 0.01;
-// So many tags whose corners are where they were expected, by so much, leave no doubt.
+// So many tags whose corners are as close as this to their expected places leave no ambiguity.
 constexpr std::size_t undoubted_tags = 6;
 constexpr double undoubted_px = 0.5;
-constexpr double expected_sd_rad = 0.1;  // of a turn that was foreseen a picture before
+constexpr double expected_sd_rad = 0.1;  // of a rotation predicted from the previous picture
 
 TagObservation::Edge observe_edge(const Intrinsics& camera, const FittedEdge& edge) {
   TagObservation::Edge seen;
@@ -46,7 +46,7 @@ double area_of(const std::array<Eigen::Vector2d, 4>& c) {
   return std::abs(a.x() * b.y() - a.y() * b.x()) / 2;
 }
 
-// Sum over all corners of how far they are off, squared, each no more than the cap.
+// Sum of squared errors of all corners, each at most the cap.
 double capped_cost(const std::vector<TagObservation>& tags, const Pose& pose) {
   double sum = 0;
   for (const TagObservation& tag : tags)
@@ -59,7 +59,7 @@ double capped_cost(const std::vector<TagObservation>& tags, const Pose& pose) {
   return sum;
 }
 
-// Lines can fit where corners don't: through a tag that is seen from behind or edge-on.
+// Lines may fit where corners do not: through a tag seen from behind or edge-on.
 bool corners_fit(const std::vector<TagObservation>& tags, const Pose& pose) {
   const double mean_px2 = capped_cost(tags, pose) / static_cast<double>(4 * tags.size());
   return mean_px2 < worst_rms_px * worst_rms_px;
@@ -74,7 +74,8 @@ struct Start {
   double cost;
 };
 
-// The largest tags' two poses each and the expected one, best first, near doubles left out.
+// The two poses of each of the largest tags and the expected one, best first, without near
+// duplicates.
 std::vector<Start> starts(const std::vector<TagObservation>& tags,
                           const std::optional<Pose>& previous) {
   const double previous_cost = previous ? capped_cost(tags, *previous) : 0;
@@ -109,9 +110,8 @@ Eigen::Vector3d farthest_corner_m(const std::vector<TagObservation>& tags) {
   return farthest;
 }
 
-// How likely a pose is beside the chosen one, at most 1, by what they cost and by what was expected
-// where that speaks for the chosen one. Costs count half: what is wrong with edges is not noise
-// alone.
+// Likelihood of a pose relative to the chosen one, at most 1, by their costs and by the expected
+// pose if that favors the chosen one. Costs count half, because errors of edges are not only noise.
 double likelihood(const BodyFit& other, const BodyFit& best, double scale,
                   const std::optional<Pose>& previous) {
   double exponent = std::max(0.0, (other.cost - best.cost) / scale / 2);
@@ -137,8 +137,8 @@ double spread_m2(const std::vector<BodyFit>& fits, const BodyFit& best, double s
   return spread;
 }
 
-// The cheapest; among those that the picture can't tell apart, the one nearest to what was
-// expected.
+// The pose of lowest cost; among those that the picture cannot distinguish, the one nearest to the
+// expected pose.
 BodyFit decided(std::vector<BodyFit> fits, const std::vector<TagObservation>& tags,
                 const std::optional<Pose>& previous) {
   std::ranges::sort(fits, {}, &BodyFit::cost);
@@ -165,7 +165,7 @@ BodyFit fit_all(const std::vector<TagObservation>& tags, const std::vector<Start
   return decided(std::move(fits), tags, previous);
 }
 
-// Tags that the fit leaves far off: read wrongly, or measured on something else.
+// Excludes tags with large residuals: misread, or measured on another object.
 std::vector<TagObservation> without_outliers(const std::vector<TagObservation>& tags,
                                              const BodyFit& fit) {
   std::vector<double> off;
@@ -180,7 +180,8 @@ std::vector<TagObservation> without_outliers(const std::vector<TagObservation>& 
   return kept;
 }
 
-// Two can't be taken for each other's mirror image, and tell depth and tilt by the other's place.
+// Two faces cannot be confused with their mirror image, and each determines depth and tilt of the
+// other.
 int count_faces(const std::vector<TagObservation>& tags) {
   constexpr double same_cosine = 0.95;
   std::vector<Eigen::Vector3d> normals;
@@ -200,7 +201,7 @@ double pose_quality(const std::vector<TagObservation>& tags, const BodyFit& fit)
     sum += tag.quality * (1 - tag.saturated * (1 - saturated_quality));
   const auto halving = [](double squared) { return 1 / (1 + squared); };
   const double place_variance_m2 = fit.covariance.bottomRightCorner<3, 3>().trace();
-  // Of the farthest corner, which two of three turns move.
+  // Variance of the farthest corner, which two of three rotations move.
   const double end_variance_m2 =
       place_variance_m2 + fit.spread_m2 +
       fit.covariance.topLeftCorner<3, 3>().trace() * 2 / 3 * farthest_corner_m(tags).squaredNorm();

@@ -14,12 +14,12 @@
 namespace heft {
 
 namespace {
-// More where pixels are left out, at a shadow's edge, or light is reflected: they had pulled the
-// pose before.
+// More rounds if pixels are left out, at a shadow's edge, or light is reflected, since these have
+// moved the pose before.
 constexpr int rounds = 2, most_rounds = 5;
 constexpr double all_explained = 0.99;
 constexpr double settled_rad = 5e-5, settled_m = 5e-6;
-// Of the pixels: a shadow's edge or a finger lies over a tag of which less is what it should be.
+// Fraction of pixels; below it a shadow's edge or a finger covers the tag.
 constexpr double least_explained = 0.9;
 }  // namespace
 

@@ -1,9 +1,7 @@
-// A body's pose from every pixel of its tags: their inner cell edges lie where they should as
-// exactly as their borders do, and pull the other way where edges are biased. Each pixel is
-// compared with what it should show (TagModel). Unknown are the pose and the edge bias, and of each
-// tag its light and the blur. Gauss-Newton from the pose of the borders, Huber weights. Tags that
-// fingers cover in part count with what is clear of them; tags that are not what they should be are
-// left out.
+// A body's pose from every pixel of its tags. Inner cell edges are as accurate as borders, and an
+// edge bias moves them the other way. Each pixel is compared with its model (TagModel). Unknown are
+// the pose, the edge bias, and the light and blur of each tag. Gauss-Newton from the borders' pose,
+// Huber weights. The clear part of tags under fingers is used; tags that do not match are left out.
 #pragma once
 
 #include <optional>
@@ -17,10 +15,11 @@
 
 namespace heft {
 
-/// @param noise sd of the picture's, gray levels  @param smear none: it stands still
-/// @param rows of a rolling shutter, before which the body moves; none: all are seen at once
-/// @return the start with another pose, bias and covariance; none where pixels don't bear it:
-/// of no tag: blurred over cells, not explained, or leading far from the start
+/// @param noise SD of the picture's, gray levels  @param smear none: no motion
+/// @param rows of a rolling shutter with a moving body; none: all rows at the same time
+/// @return the start with another pose, bias and covariance; none if the pixels do not support it:
+/// no tag,
+///   blurred over cells, not explained, or far from the start
 std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera,
                                      std::span<const DenseTag> tags, const BodyFit& start,
                                      const BiasPrior& prior, const ToneCurve& curve, double noise,

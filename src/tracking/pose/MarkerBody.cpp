@@ -41,7 +41,7 @@ std::span<const BoxFace> faces_of(const BoxShape& box) {
 }
 
 namespace {
-// Outwards, where the chamfers leave what is around the middle of a box's side, and how wide it is.
+// Outward direction, middle and width of a long side's face between chamfers.
 struct LongFace {
   Eigen::Vector3d outwards, center_m;
   double width_m;
@@ -104,7 +104,7 @@ Tag tag_on(const FaceFrame& face, int id, const Eigen::Vector2d& center_m, doubl
 }
 
 Eigen::Vector3d tag_normal(const Tag& tag) {
-  const auto& c = tag.corners_m;  // of the diagonals: also for corners that are no exact square
+  const auto& c = tag.corners_m;  // of the diagonals, also for inexact squares
   return (c[1] - c[3]).cross(c[0] - c[2]).normalized();
 }
 

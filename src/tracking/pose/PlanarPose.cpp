@@ -20,8 +20,8 @@ Eigen::Matrix3d square_to(const std::array<Eigen::Vector2d, 4>& c) {
 }
 
 namespace {
-// The corners' own plane: origin in their middle, z along its normal. OpenCV 4.6 mirrors points
-// that are not given with z = 0.
+// The corners' plane: origin in their middle, z along its normal. OpenCV 4.6 mirrors points whose z
+// is not 0.
 Pose plane_of(const std::array<Eigen::Vector3d, 4>& corners_m) {
   const Eigen::Vector3d right = (corners_m[1] - corners_m[0]).normalized();
   const Eigen::Vector3d out = (corners_m[2] - corners_m[0]).cross(corners_m[3] - corners_m[1]);
@@ -50,7 +50,7 @@ std::vector<Pose> planar_poses(const std::array<Eigen::Vector3d, 4>& corners_m,
     cv::solvePnPGeneric(points, seen, cv::Matx33d::eye(), cv::noArray(), rotations, translations,
                         false, cv::SOLVEPNP_IPPE);
   } catch (const cv::Exception&) {
-    return {};  // OpenCV throws on corners in a line
+    return {};  // OpenCV throws for collinear corners
   }
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < rotations.size(); ++i) {

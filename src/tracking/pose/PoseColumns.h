@@ -1,5 +1,5 @@
-// Poses as CSV: what `heft track` prints, and what a synthetic camera's recording keeps beside its
-// pictures. The same columns, so that one can be held against the other.
+// Poses as CSV, for `heft track` and for recordings of a synthetic camera, with equal columns to
+// compare them.
 #pragma once
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ inline constexpr std::string_view pose_columns =
     "x_m,y_m,z_m,qw,qx,qy,qz,camera_x_m,camera_y_m,camera_z_m,camera_qw,camera_qx,camera_qy,"
     "camera_qz";
 
-/// Its cells: shortest digits that read back as the same doubles; empty ones where there is none.
+/// Cells of a pose: shortest digits that read back as the same doubles; empty for none.
 inline std::string pose_cells(const std::optional<Pose>& pose) {
   if (!pose) return std::string(6, ',');
   const auto& p = pose->position_m;

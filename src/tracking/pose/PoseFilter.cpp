@@ -9,13 +9,13 @@
 namespace heft {
 
 namespace {
-// How well a pose is measured, at quality 1. One of tags on two faces has .85 or so at 640 pixels.
+// Accuracy of a pose at quality 1. With tags on two faces the quality is about 0.85 at 640 pixels.
 constexpr double position_sd_m = 0.00018, turn_sd_rad = 0.0028;
-// Process noise: the spectral density of a hand's acceleration, at rest (the little that a hand
-// trembles) and in motion, which the filter must follow at once. Motion is told by speed.
+// Process noise: spectral density of a hand's acceleration, at rest (tremor) and in motion, which
+// the filter must follow immediately. Motion is detected by speed.
 struct ProcessNoise {
   double at_rest, moving;
-  double slow, fast;  ///< speeds between which the one turns into the other
+  double slow, fast;  // speeds between which it changes
 };
 constexpr ProcessNoise position_noise{5e-6, 20, 0.02, 0.08};  // m2/s3, m/s
 constexpr ProcessNoise turn_noise{1e-3, 3e3, 0.15, 0.6};      // rad2/s3, rad/s
@@ -24,8 +24,8 @@ constexpr double innovation_starts = 2, innovation_full = 4;
 constexpr double decay_s = 0.15;
 constexpr double least_quality = 0.1;
 
-// One axis' position and velocity, relative to the last estimate, with their covariance. The three
-// axes of a quantity have one: they are measured alike.
+// Position and velocity of one axis relative to the last estimate, with their covariance. The three
+// axes of a quantity share it, because they are measured alike.
 struct Covariance {
   double position, both = 0, velocity;
 
@@ -49,7 +49,7 @@ struct Covariance {
   }
 };
 
-// Adaptive process noise: rises at once and falls slowly, so that the filter never lags at the
+// Adaptive process noise: rises immediately and falls slowly, so that the filter never lags at the
 // start of a motion.
 class AdaptiveNoise {
  public:
@@ -57,8 +57,9 @@ class AdaptiveNoise {
 
   double at_rest() const { return noise_.at_rest; }
 
-  // @param innovation in standard deviations that it has at rest
-  // @return the density; between the two in the logarithm: they are orders of magnitude apart
+  // @param innovation in standard deviations at rest
+  // @return the density, interpolated logarithmically, because its limits differ by orders of
+  // magnitude
   double update(double innovation, double speed, double dt_s) {
     const double now = std::max(ramp(innovation, innovation_starts, innovation_full),
                                 ramp(speed, noise_.slow, noise_.fast));
@@ -83,8 +84,8 @@ class Axes {
         noise_(noise),
         covariance_{measured_sd * measured_sd, 0, velocity_sd * velocity_sd} {}
 
-  // @param off how far the measured place is from the predicted one
-  // @return how far the estimated place is from the predicted one
+  // @param off distance of the measured from the predicted position
+  // @return distance of the estimated from the predicted position
   Eigen::Vector3d update(const Eigen::Vector3d& off, double dt_s, double quality) {
     const double sd = measured_sd_ / std::max(quality, least_quality);
     Covariance at_rest = covariance_;
@@ -98,9 +99,9 @@ class Axes {
   }
 
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  // What is told outside. A filter of constant velocity follows a steady acceleration with a
-  // velocity that is late by this much of each measurement's innovation (the alpha-beta
-  // filter's lag: (alpha - beta / 2) / dt); half a picture, which a hand that turns around shows.
+  // The reported velocity. During constant acceleration a constant-velocity filter's estimate lags
+  // by this part of each innovation (the alpha-beta filter's lag: (alpha - beta / 2) / dt), half a
+  // picture, which is visible when the hand reverses.
   Eigen::Vector3d now = Eigen::Vector3d::Zero();
 
  private:

@@ -1,6 +1,7 @@
-// Smooths the effector's measured poses and gives their velocity, without lag: a constant-velocity
-// Kalman filter whose process noise adapts: low at rest, high in motion. One-Euro and other
-// low-pass filters lag 20 to 58 ms at useful smoothing, which over video people would feel as mass.
+// Filters the effector's measured poses and estimates their velocity, without lag: a
+// constant-velocity Kalman filter with adaptive process noise, low at rest and high in motion.
+// One-Euro and other low-pass filters lag 20 to 58 ms at useful smoothing, which participants would
+// perceive as mass over video.
 #pragma once
 
 #include <memory>
@@ -21,12 +22,12 @@ class PoseFilter {
   PoseFilter(PoseFilter&&) noexcept;
   PoseFilter& operator=(PoseFilter&&) noexcept;
 
-  /// Takes in one measured pose; times increase. The first one after reset() is given back as it
-  /// is, at rest.
+  /// Processes one measured pose; times increase. The first one after reset() is returned
+  /// unchanged, at rest.
   /// @param quality 0...1, of the measurement
   FilteredPose update(double t_s, const Pose& measured, double quality);
 
-  /// After a jump or a loss.
+  /// Call after a jump or a loss.
   void reset();
 
  private:

@@ -1,5 +1,5 @@
-// Sums of symmetric products, of which half is the other half: what least squares spend their time
-// on.
+// Sums of symmetric products, of which only one half is computed: the most expensive part of least
+// squares.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ void add_lower(Eigen::Matrix<double, n, n>& sum, const Eigen::Matrix<double, n, 
     for (int row = column; row < n; ++row) sum(row, column) += a(row) * b(column);
 }
 
-/// Once all are added.
+/// Copies the lower half to the upper one, after all additions.
 template <int n>
 void complete_upper(Eigen::Matrix<double, n, n>& sum) {
   sum.template triangularView<Eigen::StrictlyUpper>() = sum.transpose();

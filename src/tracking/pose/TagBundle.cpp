@@ -7,11 +7,11 @@
 namespace heft {
 
 namespace {
-// Of the springs, beside corners known to 0.05 px.
+// For the priors, relative to corners with an SD of 0.05 px.
 constexpr double corner_sd_px = 0.05;
 constexpr double place_sd_m = 0.005, turn_sd_rad = 0.1, bias_sd_px = 0.1;
 
-// Unknowns: six of each tag, six of each view, the bias. A pose moves by a turn about its own
+// Unknowns: six of each tag, six of each view, the bias. A pose changes by a rotation about its
 // origin and a shift, both in the target's axes.
 struct Layout {
   Eigen::Index n_tags, n_views;
@@ -44,7 +44,7 @@ TagBundle moved(const TagBundle& bundle, const Eigen::VectorXd& step) {
   return next;
 }
 
-// One corner's two equations, by its tag, its view and the bias.
+// The two equations of one corner: derivatives by its tag, its view and the bias.
 struct CornerEquation {
   Eigen::Vector2d residual;
   Eigen::Matrix<double, 2, 6> by_tag, by_view;

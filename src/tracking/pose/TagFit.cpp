@@ -13,23 +13,23 @@ using enum TagModel::Own;
 constexpr int n_shared = TagModel::n_shared, n_own = TagModel::n_own, n_all = TagModel::n_all;
 constexpr int n_reflected = TagModel::n_reflected;
 
-constexpr double most_lean = 0.01;  // of the picture's width, between a tag's rows and the body's
+constexpr double most_lean =
+    0.01;  // between a tag's rows and the body's, as a fraction of the picture's width
 constexpr double least_noise = 0.5;
-// Of the contrast: what is farther off shows another thing. The last round looks closer, when edges
-// are no longer off because pose or bias are.
+// Relative to the contrast: pixels with a larger residual show another object. The last round has a
+// smaller limit, because errors of pose and bias are small by then.
 constexpr double far_share = 0.12, last_far_share = 0.05;
-// Variances: reflected light looks a little like another distance, so that looking for what is not
-// there would cost half of what the cells tell.
+// In variances: reflected light is correlated with distance, so that modeling an absent one would
+// cost half of the cells' information.
 constexpr double least_gain = 50;
-// Of larger tags fewer pixels are enough; and of those in the middle of cells, which tell of light
-// alone, one in so many.
+// A subset of a larger tag's pixels suffices; and one in so many of those in the middle of cells,
+// which only determine light.
 constexpr double most_pixels = 6000;
 constexpr int flat_stride = 4;
-// Of a covered tag: what is not it reaches as far.
+// Distance around covering objects that is left out, in blurs.
 constexpr double covered_in_blurs = 3;
 
-// Of a tag's own unknowns, before a pixel is looked at: 1 / variance. Blur is what the borders'
-// fits left open.
+// Prior precision (1 / variance) of a tag's own unknowns. The blur is known from the borders' fits.
 const TagModel::VectorOwn certainty = [] {
   constexpr double of_blur = 1 / (0.05 * 0.05), of_light = 1 / 0.1;
   TagModel::VectorOwn by = TagModel::VectorOwn::Zero();
@@ -39,8 +39,8 @@ const TagModel::VectorOwn certainty = [] {
   return by;
 }();
 
-// Rays of a row's pixels, one after the other. How far the lens bends them changes slowly: between
-// every eighth pixel it is on a line, to thousandths of a pixel.
+// Rays of a row's pixels, one after the other. The distortion changes slowly: linear interpolation
+// between every eighth pixel is accurate to thousandths of a pixel.
 class RowOfRays {
  public:
   explicit RowOfRays(const Intrinsics& camera) : camera_(camera) {}
@@ -52,7 +52,7 @@ class RowOfRays {
     by_x_.setZero();
   }
 
-  /// @param x from start's on
+  /// @param x not before start's
   Eigen::Vector2d at(int x) {
     while (x > end_) {
       const Eigen::Vector2d before = bend_;
@@ -114,7 +114,7 @@ void TagFit::collect(const Image& gray, const Intrinsics& camera, const Pose& po
   const int x1 = std::min(gray.width - 1, static_cast<int>(high.x()) + 1);
   const int y1 = std::min(gray.height - 1, static_cast<int>(high.y()) + 1);
   const Eigen::Vector2d near = model_.near_cells(plane);
-  // In rows that are offset.
+  // Rows are offset against each other.
   const int stride = 1 + static_cast<int>(seen_.area_px2 / most_pixels);
   RowOfRays rays(camera);
   for (int y = y0; y <= y1; ++y) {
@@ -133,12 +133,12 @@ void TagFit::collect(const Image& gray, const Intrinsics& camera, const Pose& po
   }
 }
 
-// How far off a pixel is that shows another thing, gray levels.
+// Residual above which a pixel shows another object, gray levels.
 double TagFit::far_off(double share) const {
   return std::max({10.0, share * (seen_.bright - seen_.dark), 3 * picture_noise_});
 }
 
-// What is not the tag, and what is so near to it that they are blurred into each other.
+// Leaves out pixels of covering objects, and those near enough to be blurred with them.
 void TagFit::leave_out_covered(const Pose& pose) {
   const TagPlane plane = model_.plane(pose);
   const double reach = covered_in_blurs * model_.blur_px() / seen_.px_per_ray;
@@ -192,7 +192,7 @@ void TagFit::add_to(MatrixShared& matrix, VectorShared& rhs, const Pose& pose, d
   rhs += all_rhs.head<n_shared>() - all.topRightCorner<n_shared, n_own>() * own_step_;
 }
 
-// By how many variances reflected light would explain the pixels better.
+// Decrease of the cost by modeling reflected light, in variances.
 double TagFit::gained(const MatrixAll& all, const VectorAll& rhs) {
   constexpr int n_rest = n_all - n_reflected;
   const auto across = all.bottomLeftCorner<n_reflected, n_rest>();

@@ -1,4 +1,4 @@
-// What one tag's pixels say about a body's pose, and which of them are the tag's.
+// Information of one tag's pixels on a body's pose, and the selection of pixels that show the tag.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,28 +18,27 @@ class TagFit {
   using MatrixAll = Eigen::Matrix<double, TagModel::n_all, TagModel::n_all>;
   using VectorAll = TagModel::VectorAll;
 
-  /// Of an adjustment: at first pixels are off because the pose is, at last because they show
-  /// another thing.
+  /// Round of an adjustment: at first residuals come from the pose, at last from other objects.
   enum class Round { first, next, last };
 
-  /// @param noise sd of the picture's, gray levels; for the others see align_densely
+  /// @param noise SD of the picture's, gray levels; for the others see align_densely
   TagFit(const Image& gray, const Intrinsics& camera, const DenseTag& tag, const Pose& start,
          const ToneCurve& curve, double noise, const std::optional<Smear>& smear,
          const std::optional<RowsHeld>& rows);
 
   bool usable() const { return pixels_.size() > 100; }
 
-  /// Adds what the pixels say about what tags share, the tag's own unknowns taken out.
+  /// Adds the pixels' equations for the shared unknowns, with the tag's own unknowns eliminated.
   void add_to(MatrixShared& matrix, VectorShared& rhs, const Pose& pose, double bias_px,
               Round round);
 
-  /// The tag's own unknowns follow what tags share.
+  /// Updates the tag's own unknowns after a step of the shared ones.
   void step(const VectorShared& shared) { model_.change_own(own_step_ - own_by_shared_ * shared); }
 
-  /// A lamp.
+  /// Whether a lamp is reflected.
   bool reflects() const { return reflects_; }
 
-  /// Of the pixels.
+  /// Fraction of pixels explained.
   double explained() const;
 
  private:

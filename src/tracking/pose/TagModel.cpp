@@ -11,19 +11,18 @@
 namespace heft {
 
 namespace {
-// What lies beyond the white cell around the border, perhaps an edge of the box, must not blur into
-// the pixels that are compared.
+// Objects beyond the white cell around the border, perhaps an edge of the box, must not blur into
+// the compared pixels.
 constexpr double most_beyond_cells = 0.45, far_in_blurs = 3;
 constexpr double most_blur_cells = 0.45;
-constexpr double least_blur_px = 0.29;  // a pixel's own extent: 1 / sqrt(12)
+constexpr double least_blur_px = 0.29;  // a pixel's extent: 1 / sqrt(12)
 constexpr double edge_in_blurs = 2.5;
-constexpr double least_contrast = 0.002;  // of the light that shows as white
-// The pattern is painted with its outermost cells carried on, as far as four cells around a pixel
-// reach.
+constexpr double least_contrast = 0.002;  // relative to the light of displayed white
+// The pattern is padded with its outermost cells, because four cells around a pixel are used.
 constexpr int padding = 3;
 
-// A tag's cells along one axis around a place: how much of the blur lies over each of four. What
-// lies beyond is 1.5 cells away, 3.3 times the widest blur.
+// Weights of a tag's cells along one axis around a place: the part of the blur over each of four.
+// The next cells are 1.5 cells away, 3.3 times the widest blur.
 struct Weights {
   enum Column { weight, by_place, by_log_blur };
   int first;  ///< cell
@@ -85,7 +84,7 @@ TagHit TagModel::middle(const TagPlane& plane) const {
   return TagHit(plane, middle_m.hnormalized());
 }
 
-// The variance that motion adds along its way, from what it adds across the borders.
+// The variance added by motion along its direction, from that added across the borders.
 void TagModel::smear_along(const Smear& smear, const Pose& pose) {
   const TagHit hit = middle(plane(pose));
   const Eigen::Vector3d v =
@@ -93,7 +92,7 @@ void TagModel::smear_along(const Smear& smear, const Pose& pose) {
   const Eigen::Vector2d way = v.head<2>() - v.z() * hit.point_m.hnormalized();
   if (!(way.norm() > 0)) return;
   const Eigen::Vector2d across = (hit.cell_by_slant.rowwise().normalized() * way.normalized())
-                                     .cwiseAbs2();  // of the way, across each kind of border
+                                     .cwiseAbs2();  // of the motion, across each kind of border
   const double still = smear.still_blur_px * smear.still_blur_px;
   const Eigen::Vector2d added = blur_px_.cwiseAbs2().array() - still;
   const double variance = std::max(0.0, across.dot(added) / across.squaredNorm());
@@ -145,7 +144,7 @@ double TagModel::gray_level(const Eigen::Vector2d& ray, const TagPlane& plane, c
   const Eigen::Vector2d blur = wider_ * cell_by_px.cwiseProduct(blur_px_);
   const Weights across = weights_at(hit.cell.x(), blur.x());
   const Weights below = weights_at(hit.cell.y(), blur.y());
-  // Seen at a slant, or smeared, the blur lies at a slant on the tag: two terms of Mehler's
+  // For slanted or smeared tags the blur is an inclined ellipse on the tag: two terms of Mehler's
   // series.
   const Eigen::Matrix2d shape = hit.cell_by_slant * blur_shape_ * hit.cell_by_slant.transpose();
   const double correlation = shape(0, 1) / std::sqrt(shape(0, 0) * shape(1, 1));
@@ -161,7 +160,7 @@ double TagModel::gray_level(const Eigen::Vector2d& ray, const TagPlane& plane, c
   const Eigen::Vector2d by_cell(sums(weight, by_place), sums(by_place, weight));
   const double by_blur = sums(weight, by_log_blur) + sums(by_log_blur, weight);
   const Eigen::Vector2d slope = -(hit.cell_by_slant.transpose() * by_cell);
-  const double shrinks = -slope.norm() * pixel_m;  // of white, by a pixel of bias
+  const double shrinks = -slope.norm() * pixel_m;  // of white, per pixel of bias
   const double white = b + shrinks * bias_px;
   const double half = pattern_.border_cells / 2.0;
   const Eigen::Vector2d place = (hit.cell.array() - half) / half;

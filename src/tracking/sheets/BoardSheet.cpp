@@ -27,8 +27,8 @@ void refuse_what_is_not_flat(const MarkerBody& board) {
     const auto off = [](const Eigen::Vector3d& corner_m) { return std::abs(corner_m.z()); };
     if (std::ranges::max(tag.corners_m, {}, off).cwiseAbs().z() > tolerance_m ||
         tag_normal(tag).z() < 0)
-      throw Error(fmt::format("tag {} does not lie face up on the table (z = 0); a sheet can only "
-                              "hold tags that do",
+      throw Error(fmt::format("tag {} is not face up on the table (z = 0); a sheet can only "
+                              "have tags that are",
                               tag.id),
                   ExitCode::invalid_file);
   }
@@ -47,13 +47,13 @@ double margin_mm(const MarkerBody& board) {
   return code ? margin + unprintable_mm : std::max(margin, unprintable_mm);
 }
 
-// What the detected corners of a board may span.
+// Space for the detected corners of a board.
 PointMm room_mm(const PointMm& paper, double margin) {
   return {paper.x() - 2 * margin, paper.y() - 2 * margin - ruler_strip_mm};
 }
 
-// Where the tags begin on the sheet: in the middle, or beside a ruler down the sheet where there is
-// room for one and for their white.
+// Left edge of the tags on the sheet: centered, or beside a ruler down the sheet if there is space
+// for it.
 struct LeftEdge {
   double tags_mm = 0;
   bool has_ruler = false;
@@ -67,7 +67,7 @@ LeftEdge left_edge(const PointMm& size_mm, const PointMm& sheet_mm, double margi
   return {std::max(beside_ruler_mm, free_mm / 2), true};
 }
 
-// The paper upright or across; none where neither holds the board.
+// Portrait or landscape; none if the board fits neither.
 std::optional<PointMm> fitting(const PointMm& upright, const PointMm& size_mm, double margin) {
   for (const PointMm& paper : {PointMm(upright.y(), upright.x()), upright})
     if ((size_mm.array() <= room_mm(paper, margin).array()).all()) return paper;
@@ -79,21 +79,22 @@ PointMm chosen_paper(const MarkerBody& board, Paper paper) {
   if (const auto fits = fitting(upright, size, margin_mm(board))) return *fits;
   const PointMm room = room_mm({upright.y(), upright.x()}, margin_mm(board));
   throw Error(fmt::format(
-      "the board's tags span {:.4g} x {:.4g} mm, but a sheet of {} has room for "
-      "{:.4g} x {:.4g}; take other paper (--paper), or fewer or smaller tags (the shipped "
+      "the board's tags span {:.4g} x {:.4g} mm, but a sheet of {} has space for "
+      "{:.4g} x {:.4g}; use other paper (--paper), or fewer or smaller tags (the installed "
       "protocols/apparatus/board_letter.toml fits US letter)",
       size.x(), size.y(), name_of(paper), std::floor(room.x()), std::floor(room.y())));
 }
 
-// What to measure down the sheet. @param height_mm between the outermost detected corners
+// Instructions for measuring down the sheet. @param height_mm between the outermost detected
+// corners
 std::string measured_down(bool has_ruler_down, double height_mm) {
   if (has_ruler_down)
-    return "Printers stretch paper in one direction more, so measure the line at the left, too. "
-           "If\n"
-           "they differ, write both, the one at the bottom first:\n"
+    return "Printers stretch paper more in one direction, so measure the line at the left, too. "
+           "If "
+           "they differ, write both, the bottom one first:\n"
            "    ruler_measured_m = [0.1496, 0.1503]";
   return fmt::format(
-      "Printers stretch paper in one direction more: from the top of the first row's black\n"
+      "Printers stretch paper more in one direction: from the top of the first row's black\n"
       "to the bottom of the last one's it should be {:.1f} mm. If it is 0.2 % more, write\n"
       "    ruler_measured_m = [0.1496, 0.1503]",
       height_mm);
@@ -102,20 +103,20 @@ std::string measured_down(bool has_ruler_down, double height_mm) {
 std::array<std::string, 6> steps_for(const std::string& down) {
   return {
       "Print page 1 at 100 % (\"actual size\"), not \"fit to page\", on matte white paper.\n"
-      "Gloss reflects lamps, and tags under a reflection are not seen.",
+      "Glossy paper reflects lamps, and tags under a reflection are not detected.",
       "Measure the ruler line at the bottom of page 1 with a good ruler or calipers,\n"
       "between its first and its last tick, to a tenth of a millimeter. It should be 150.0 mm.",
-      "Write what you measured into the board file, in meters, for example:\n"
+      "Write the measured length into the board file, in meters, for example:\n"
       "    ruler_measured_m = 0.1496\n"
-      "Half a percent that is not written down moves the effector by about 2 mm.\n" +
+      "An error of half a percent moves the effector by about 2 mm.\n" +
           down,
       "Glue the sheet, without bubbles, to something flat and stiff: glass, an aluminum\n"
       "plate, a thick board. Keep the white around the tags; do not cut into it.",
       "Check the file, then calibrate the camera with the board in your hands:\n"
       "    heft validate BOARD.toml\n"
       "    heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
-      "Lay the board in front of the participant, with the edge marked so towards them, and\n"
-      "fix it: neither the board nor the camera may move during a session."};
+      "Lay the board in front of the participant, with the marked edge towards them, and fix\n"
+      "it: neither the board nor the camera may move during a session."};
 }
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace heft {
 namespace {
 constexpr double flap_m = 0.008, flap_slant_m = 0.004;
 
-// Of a face's outline: its i-th edge, clockwise, and how many there are.
+// The i-th edge of a face's outline, clockwise, and the number of edges.
 using Edge = std::array<NetPoint, 2>;
 std::vector<Edge> edges(const NetFace& face) {
   const std::vector<NetPoint> corners = face.corners_m();
@@ -22,10 +22,10 @@ std::vector<Edge> edges(const NetFace& face) {
   return all;
 }
 
-// A long face's edges, as they come.
+// A long face's edges, in clockwise order.
 enum Side : std::uint8_t { above, to_the_right, below, to_the_left };
 
-// A flap to put glue on: folded at the face, cut around.
+// A flap for glue: folded at the face, cut around.
 void add_flap(EffectorNet& net, const Edge& edge) {
   const auto [from, to] = edge;
   const NetPoint along = (to - from).normalized();
@@ -43,7 +43,7 @@ bool is_same(const Edge& a, const Edge& b) {
   return ((a[0] - b[1]).norm() < tolerance_m && (a[1] - b[0]).norm() < tolerance_m);
 }
 
-// An end hangs on one long face, and has flaps all around else.
+// An end is attached to one long face, and has flaps on its other edges.
 void add_end(EffectorNet& net, BoxFace end, BoxFace hangs_on, Side side) {
   const Edge hinge = edges(net.at(hangs_on))[side];
   net.folds_m.push_back(hinge);
@@ -51,7 +51,7 @@ void add_end(EffectorNet& net, BoxFace end, BoxFace hangs_on, Side side) {
     if (!is_same(edge, hinge)) add_flap(net, edge);
 }
 
-// The long faces side by side, as one goes round the box.
+// The long faces side by side, in the order around the box.
 std::vector<BoxFace> strip(const BoxShape& box) {
   using enum BoxFace;
   if (box.chamfer_m > 0) return {top, upper_right, right, bottom, left, upper_left};
@@ -96,7 +96,7 @@ EffectorNet effector_net(const BoxShape& box) {
   const double low_m = flap_m + height, middle_m = low_m + length / 2;
   const std::vector<BoxFace> long_faces = strip(box);
   EffectorNet net;
-  double right_m = flap_m;  // the back's left flap may reach beyond the strip
+  double right_m = flap_m;  // the back's left flap may extend beyond the strip
   for (const BoxFace face : long_faces) {
     const FaceFrame frame = face_frame(box, face);
     net.faces.push_back({face, frame, {right_m + frame.size_m.x() / 2, middle_m}});
@@ -117,7 +117,7 @@ EffectorNet effector_net(const BoxShape& box) {
 }
 
 BoxFace face_of(const BoxShape& box, const Tag& tag) {
-  constexpr double tilt_cosine = 0.98, distance_m = 0.003;  // of one put on by hand
+  constexpr double tilt_cosine = 0.98, distance_m = 0.003;  // tolerance of a tag glued by hand
   const Eigen::Vector3d normal = tag_normal(tag), center_m = tag_center_m(tag);
   for (const BoxFace face : faces_of(box)) {
     const FaceFrame frame = face_frame(box, face);
@@ -125,7 +125,7 @@ BoxFace face_of(const BoxShape& box, const Tag& tag) {
     if (normal.dot(frame.normal()) > tilt_cosine && std::abs(above_m) < distance_m) return face;
   }
   throw Error(
-      fmt::format("tag {} lies on no face of the box; a net can only hold tags that do", tag.id),
+      fmt::format("tag {} is on no face of the box; a net can only have tags that are", tag.id),
       ExitCode::invalid_file);
 }
 

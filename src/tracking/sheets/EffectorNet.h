@@ -1,6 +1,5 @@
-// The effector's box cut open and laid flat, seen from outside, tip upwards: the long faces side by
-// side, the tip above the bottom face, the back below the top face or, of a chamfered box, below
-// the bottom.
+// The net of the effector's box, seen from outside, tip upwards: the long faces side by side, the
+// tip above the bottom face, the back below the top face or, for a chamfered box, below the bottom.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +10,11 @@
 
 namespace heft {
 
-/// A point on the flat net, meters, x right and y up; the origin is its lower left corner, flaps
-/// included.
+/// A point on the net, meters, x right and y up; the origin is its lower left corner including
+/// flaps.
 using NetPoint = Eigen::Vector2d;
 
-/// A face on the net: its right and up are the net's, or both the other way round.
+/// A face on the net: its right and up are the net's, or both reversed.
 struct NetFace {
   BoxFace face;
   FaceFrame frame;
@@ -24,7 +23,7 @@ struct NetFace {
 
   NetPoint on_net(const Eigen::Vector3d& point_m) const;
   Eigen::Vector3d on_box(const NetPoint& point_m) const;
-  /// Clockwise; of a face that is not upside down from its upper left one.
+  /// Clockwise; starts at the upper left corner of a face that is not upside down.
   std::vector<NetPoint> corners_m() const;
 };
 
@@ -38,8 +37,8 @@ struct EffectorNet {
 
 EffectorNet effector_net(const BoxShape& box);
 
-/// The face that a tag is printed on.
-/// @throws Error for one that lies on none
+/// The face with a tag.
+/// @throws Error for a tag that is on no face
 BoxFace face_of(const BoxShape& box, const Tag& tag);
 
 }  // namespace heft

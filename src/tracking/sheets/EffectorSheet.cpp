@@ -1,4 +1,4 @@
-// The effector's sheet: its net, with the tags where they belong.
+// The effector's sheet: its net with the tags.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace heft {
 namespace {
 constexpr Stroke cut{0.15, 0.3}, fold{0.15, 0.6, true}, pointer{0.4, 0.3};
 
-// From the net's meters, y up, to the paper's millimeters, y down.
+// Converts the net's meters, y up, to the paper's millimeters, y down.
 struct OnPaper {
   PointMm low_left;
   PointMm operator()(const NetPoint& point_m) const {
@@ -37,7 +37,7 @@ void draw_tags(PdfSheet& sheet, const MarkerBody& effector, const EffectorNet& n
   }
 }
 
-// The lowest point of a face that no tag's print reaches below.
+// The lowest point of the prints on a face.
 double lowest_tag_m(const MarkerBody& effector, const NetFace& face) {
   double lowest_m = face.frame.size_m.y() / 2;
   for (const Tag& tag : effector.tags) {
@@ -56,7 +56,7 @@ std::string name_in_words(BoxFace face) {
   return name;
 }
 
-// The face's name and an arrow to the tip, where there is room below its tags.
+// The face's name and an arrow to the tip, if there is space below its tags.
 void label(PdfSheet& sheet, const MarkerBody& effector, const NetFace& face,
            const OnPaper& on_paper) {
   constexpr double needed_m = 0.014;
@@ -68,20 +68,20 @@ void label(PdfSheet& sheet, const MarkerBody& effector, const NetFace& face,
   sheet.arrow(foot - PointMm(0, 4), foot - PointMm(0, 10), pointer);
 }
 
-// Beside the two rulers.
+// Space beside the two rulers.
 PointMm room_mm(const PointMm& sheet_mm) {
   return sheet_mm - PointMm::Constant(2 * unprintable_mm + ruler_strip_mm);
 }
 
-// The paper upright, or across where the net fits only so.
+// Portrait, or landscape if the net only fits so.
 PointMm chosen_paper(const PointMm& net_mm, Paper paper) {
   const PointMm upright = paper_mm(paper), across(upright.y(), upright.x());
   for (const PointMm& sheet_mm : {upright, across})
     if ((net_mm.array() <= room_mm(sheet_mm).array()).all()) return sheet_mm;
   const PointMm room = room_mm(upright);
   throw Error(
-      fmt::format("the effector's net is {:.4g} x {:.4g} mm, but a sheet of {} has room for "
-                  "{:.4g} x {:.4g}; make the box smaller, or take other paper (--paper)",
+      fmt::format("the effector's net is {:.4g} x {:.4g} mm, but a sheet of {} has space for "
+                  "{:.4g} x {:.4g}; make the box smaller, or use other paper (--paper)",
                   net_mm.x(), net_mm.y(), name_of(paper), room.x(), room.y()));
 }
 
@@ -89,16 +89,16 @@ const std::array<std::string, 6> steps{
     "Print page 1 at 100 % (\"actual size\"), not \"fit to page\", on matte white card\n"
     "(160 g or more).",
     "Measure both ruler lines of page 1, at the bottom and at the left, between their first\n"
-    "and last ticks: printers stretch paper in one direction more. Write what you measured\n"
-    "into the effector file, in meters, the bottom one first, for example:\n"
+    "and last ticks: printers stretch paper more in one direction. Write the lengths into\n"
+    "the effector file, in meters, the bottom one first, for example:\n"
     "    ruler_measured_m = [0.1496, 0.1499]",
     "Cut along the full lines. Score the dashed lines with the back of a knife and fold\n"
-    "them away from you: the tags come outside.",
+    "them away from you, so that the tags are outside.",
     "Glue the long side first, then the tip with its flaps inside. A block of wood or\n"
     "foam inside keeps the box in shape. Close the back.",
-    "Arrows point to the tip. It is held at the back, so that no finger covers a tag, with\n"
-    "the face \"top\" up.",
-    "Measure where the tags really are (folded boxes are a millimeter off):\n"
+    "Arrows point to the tip. Hold the effector at its back, so that no finger covers a tag,\n"
+    "with the face \"top\" up.",
+    "Measure the positions of the tags (folded boxes are a millimeter off):\n"
     "    heft calibrate effector --camera camera:0 --camera-file camera.yaml \\\n"
     "        --effector EFFECTOR.toml --out MEASURED.toml"};
 }  // namespace
@@ -110,7 +110,8 @@ void write_effector_sheet(const MarkerBody& effector, Paper paper, const std::st
   const double free_mm = sheet_mm.y() - ruler_strip_mm - net_mm.y();
   const double middle_mm = (sheet_mm.x() + ruler_strip_mm) / 2;
   const OnPaper on_paper{{middle_mm - net_mm.x() / 2, free_mm / 2 + net_mm.y()}};
-  for (const Tag& tag : designed.tags) face_of(designed.box(), tag);  // refuses before a file is
+  for (const Tag& tag : designed.tags)
+    face_of(designed.box(), tag);  // reports a misplaced tag before the file is
   PdfSheet sheet(path, sheet_mm, "Effector for Heft");
   draw_lines(sheet, net, on_paper);
   draw_tags(sheet, designed, net, on_paper);

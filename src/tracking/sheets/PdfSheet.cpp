@@ -14,12 +14,12 @@ namespace heft {
 namespace {
 constexpr double points_per_mm = 72 / 25.4;
 
-// A sheet that was printed, measured and glued stays as it is.
+// Existing sheets, perhaps printed and measured, are not overwritten.
 const char* new_file(const std::string& path) {
   require_writable(path);
   if (!create_file(path, 0666))
     throw Error(
-        fmt::format("{} is there already and would be written over; name another file, or remove "
+        fmt::format("{} already exists and would be overwritten; name another file, or remove "
                     "it first",
                     path));
   return path.c_str();
@@ -40,7 +40,7 @@ void PdfSheet::tag(const TagPattern& pattern, const std::array<PointMm, 4>& corn
   const PointMm column = (corners_mm[1] - corners_mm[0]) / pattern.border_cells;
   const PointMm row = (corners_mm[3] - corners_mm[0]) / pattern.border_cells;
   const PointMm first = corners_mm[0] - (column + row) * pattern.margin_cells();
-  cairo_new_path(pen_.get());  // all cells at once: no hairlines between neighbors
+  cairo_new_path(pen_.get());  // all cells in one path: no hairlines between neighbors
   for (int y = 0; y < pattern.n_cells; ++y)
     for (int x = 0; x < pattern.n_cells; ++x) {
       if (pattern.is_white(x, y)) continue;
@@ -93,7 +93,7 @@ void PdfSheet::arrow(const PointMm& from_mm, const PointMm& to_mm, const Stroke&
 namespace {
 constexpr int ruler_mm = static_cast<int>(ruler_m * 1000);
 
-// Of the outermost ticks' length.
+// Relative to the outermost ticks' length.
 double tick_share(int mm) {
   return mm % ruler_mm == 0 ? 1 : mm % 50 == 0 ? 0.6 : 0.4;
 }
@@ -125,8 +125,9 @@ void PdfSheet::finish() {
   for (const cairo_status_t status :
        {cairo_status(pen_.get()), cairo_surface_status(surface_.get())})
     if (status != CAIRO_STATUS_SUCCESS && status != CAIRO_STATUS_SURFACE_FINISHED)
-      throw Error(fmt::format("can't write {}: {}; does the folder exist, and is there space?",
-                              path_, cairo_status_to_string(status)));
+      throw Error(
+          fmt::format("cannot write {}: {}; check that the folder exists and the disk is not full",
+                      path_, cairo_status_to_string(status)));
 }
 
 void write_steps(PdfSheet& sheet, const std::string& heading, std::span<const std::string> steps) {
@@ -152,10 +153,11 @@ void draw_ruler_strip(PdfSheet& sheet, const PointMm& paper_mm, bool both,
   sheet.ruler({unprintable_mm + 4, base_mm});
   const double beside_mm = unprintable_mm + 4 + ruler_m * 1000 + 4;
   const bool room_beside = paper_mm.x() - beside_mm > 100;
-  const char* lines = both ? "Are both lines 150.0 mm long? " : "Is this line 150.0 mm long? ";
+  const char* lines = both ? "Check that both lines are 150.0 mm long. "
+                           : "Check that this line is 150.0 mm long. ";
   if (room_beside) {
     sheet.text({beside_mm, base_mm - 1.5}, "Print at 100 %. " + (lines + note), {2.6});
-    sheet.text({beside_mm, base_mm + 2}, "Write down what you measure: page 2.", {2.6});
+    sheet.text({beside_mm, base_mm + 2}, "Write down the measured length: see page 2.", {2.6});
   } else {
     sheet.text({beside_mm, base_mm - 1.5}, "Print at 100 %. Measure", {2.6});
     sheet.text({beside_mm, base_mm + 2},
@@ -169,7 +171,7 @@ void draw_tag(PdfSheet& sheet, const std::string& family, int id,
   sheet.tag(pattern, corners_mm);
   const PointMm down = (corners_mm[3] - corners_mm[0]).normalized();
   const double cell_mm = (corners_mm[3] - corners_mm[0]).norm() / pattern.border_cells;
-  // Outside of the print, or in the outer half of its white margin where that is narrow.
+  // Outside of the print, or in the outer half of a narrower white margin.
   const double away_mm =
       pattern.margin_cells() > 1 ? (pattern.margin_cells() + 0.3) * cell_mm : 0.55 * cell_mm;
   const double font_mm = std::min(2.0, 0.4 * cell_mm);

@@ -1,5 +1,5 @@
-// Sheets to print: the board, and the effector's cut-out net. True millimeters, a ruler line to
-// measure the print with, and what to do in words on a second page.
+// Sheets to print: the board, and the effector's net. True millimeters, a ruler line to measure the
+// print, and instructions on a second page.
 #pragma once
 
 #include <string>
@@ -15,15 +15,16 @@ struct EnumNames<Paper> {
   static constexpr std::array<std::string_view, 2> names{"a4", "letter"};
 };
 
-/// The board's tags in the middle of the sheet, upright or across, whichever it fits.
-/// @param board as its file says; drawn as designed, whatever ruler length was measured since
-/// @throws Error when the board is larger than the paper, or not flat on the table, or the file
-///   can't be written
+/// The board's tags in the middle of the sheet, portrait or landscape.
+/// @param board from its file; drawn as designed, whatever ruler length was measured since
+/// @throws Error if the board is larger than the paper, or not flat on the table, or the file
+/// cannot be
+///   written
 void write_board_sheet(const MarkerBody& board, Paper paper, const std::string& path);
 
-/// The effector's six faces with flaps, to cut out and fold.
-/// @throws Error when the net is larger than the paper, a tag lies on no face, or the file can't be
-///   written
+/// The effector's faces with flaps, to cut out and fold.
+/// @throws Error if the net is larger than the paper, a tag is on no face, or the file cannot be
+/// written
 void write_effector_sheet(const MarkerBody& effector, Paper paper, const std::string& path);
 
 }  // namespace heft

@@ -18,7 +18,7 @@ PixelBox pixels_around(std::span<const Eigen::Vector2d> points_px) {
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
-  // A pixel reaches half a pixel around its center.
+  // A pixel extends half a pixel around its center.
   const auto pixel = [](double px) { return static_cast<int>(std::lround(px)); };
   return {pixel(low.x()), pixel(low.y()), pixel(high.x()) + 1, pixel(high.y()) + 1};
 }

@@ -1,7 +1,7 @@
-// Draws polygons by exact area: a pixel gets as much of a polygon's light as the polygon covers of
-// it, computed in closed form along its edges, without samples. What lies next to each other or on
-// each other in one body adds up, so a printed face is its paper plus (ink - paper) times the black
-// cells, with no seams.
+// Draws polygons by exact area: a pixel gets the part of a polygon's light that equals the
+// polygon's coverage of it, computed in closed form along its edges, without sampling. Light of
+// polygons side by side or on each other in one body adds up, so a printed face is its paper plus
+// (ink - paper) times the black cells, without seams.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,19 +36,19 @@ struct PixelBox {
   PixelBox around(const PixelBox& other) const;
 };
 
-/// Light is drawn in pixels finer than the picture's, so many each way: blurred at whole pixels, an
-/// edge's profile would be a staircase, with a blur of .6 pixels by up to .06 of its height off the
-/// normal distribution that was asked; so it is .011.
+/// Fine pixels per picture pixel in each direction. An edge blurred with 0.6 px and sampled at
+/// whole pixels would deviate from the normal distribution by up to 0.06 of its height; with fine
+/// pixels it is 0.011.
 inline constexpr int fineness = 2;
 
-/// The picture's pixels that hold any of these fine ones, and the fine ones of a picture's.
+/// The picture's pixels that contain any of these fine ones, and the fine ones of a picture's.
 PixelBox coarse_of(const PixelBox& fine);
 PixelBox fine_of(const PixelBox& coarse);
 
-/// The pixels that hold any part of these points' bounding box.
+/// The pixels that contain any part of these points' bounding box.
 PixelBox pixels_around(std::span<const Eigen::Vector2d> points_px);
 
-/// A piece of a picture in linear light.
+/// A part of a picture in linear light.
 struct LightPicture {
   PixelBox box;
   std::vector<Light> light;  ///< rows from the top
@@ -66,50 +66,50 @@ struct LightPicture {
   }
 };
 
-/// `top` in front of `under`. Pictures are drawn from the front to the back, so that what is hidden
-/// can be left out.
+/// `top` in front of `under`. Pictures are drawn from front to back, so that hidden parts are
+/// skipped.
 inline Light over(const Light& top, const Light& under) {
   return top + (1 - top[3]) * under;
 }
 
 class AreaRaster {
  public:
-  /// Starts afresh; what lies outside of the box is cut off.
+  /// Starts a new polygon sum; clipped to the box.
   void begin(const PixelBox& box);
 
-  /// Adds a simple polygon; clockwise in the picture (y down) counts positive.
+  /// Adds a simple polygon; clockwise in the picture (y down) is positive.
   void add(std::span<const Eigen::Vector2d> polygon_px, const Light& light);
 
-  /// Puts what was added behind what the picture holds. Its box holds this one's.
+  /// Draws the sum behind the picture's content. The picture's box contains this one's.
   void draw_behind(LightPicture& picture) const;
 
   const PixelBox& box() const { return box_; }
 
  private:
   PixelBox box_;
-  std::vector<Light> steps_;  ///< of each row: what changes from one pixel to the next; width + 1
+  std::vector<Light> steps_;  ///< for each row, the changes from pixel to pixel; width + 1 values
 };
 
-/// One span for every row of a box, within the box.
+/// One span for each row of a box, within the box.
 class RowSpans {
  public:
   RowSpans() = default;
-  /// Empty ones.
+  /// Empty spans.
   explicit RowSpans(const PixelBox& box)
       : box_(box), spans_(static_cast<std::size_t>(std::max(0, box.height()))) {}
 
-  /// Of a box, whole rows.
+  /// Whole rows of a box.
   static RowSpans whole(const PixelBox& box);
-  /// From the first to the last pixel of each row that covers something.
+  /// From the first to the last covered pixel of each row.
   static RowSpans covered(const LightPicture& picture);
 
   const PixelBox& box() const { return box_; }
   Span& at(int y) { return spans_[static_cast<std::size_t>(y - box_.y0)]; }
   const Span& at(int y) const { return spans_[static_cast<std::size_t>(y - box_.y0)]; }
 
-  /// The picture's pixels that hold any of these fine ones.
+  /// The picture's pixels that contain any of these fine ones.
   RowSpans coarse() const;
-  /// All that is at most so many columns and rows away, within the box.
+  /// Extended by so many columns and rows, within the box.
   RowSpans grown(int columns, int rows) const;
 
  private:

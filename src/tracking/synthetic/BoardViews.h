@@ -1,5 +1,5 @@
-// What a person with a board in front of a camera produces: views from all around it, and how far a
-// camera that was calibrated from them is from the one that took them.
+// Simulates a person holding a board in front of a camera: views from all sides, and the difference
+// between the camera calibrated from them and the true one.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace heft {
 
-/// A camera that looks at a point of the board from all sides, so that the board fills another part
-/// of the picture each time: camera_from_board. @param spread 1: all around; 0: always from the
-/// same side
+/// A pose camera_from_board from a random side, so that the board covers different parts of the
+/// picture.
+/// @param spread 1: all around; 0: always from the same side
 Pose view_of_board(RandomStream& random, double spread);
 
 struct BoardViews {
@@ -27,7 +27,7 @@ struct RayErrors {
   double p95_px, median_px;
 };
 
-/// How far a ray of one camera is from the same pixel's of the other, over the whole picture.
+/// Angles between the rays of equal pixels of two cameras, over the whole picture.
 RayErrors ray_errors(const Intrinsics& found, const Intrinsics& truth);
 
 }  // namespace heft

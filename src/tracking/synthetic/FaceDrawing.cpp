@@ -21,7 +21,7 @@ Lens Lens::fine() const {
   fine.height_px *= fineness;
   fine.fx_px *= fineness;
   fine.fy_px *= fineness;
-  // Centers are whole numbers, so a picture's pixel's is between its middle ones.
+  // Pixel centers are integers, so that a picture pixel's center is between its middle fine pixels.
   fine.cx_px = fineness * (fine.cx_px + 0.5) - 0.5;
   fine.cy_px = fineness * (fine.cy_px + 0.5) - 0.5;
   return Lens(fine);
@@ -39,10 +39,10 @@ Eigen::Vector2d Lens::pixel(const Eigen::Vector3d& point_m) const {
 namespace {
 using Eigen::Vector3d;
 
-// Straight edges appear curved through the lens: a piece of this length is straight to 1e-4 px.
+// Straight edges are curved through the lens: a piece of this length is straight to 1e-4 px.
 constexpr double piece_m = 0.0051;
 
-using CutQuad = Polygon<Vector3d, 5>;  // a corner may be cut off
+using CutQuad = Polygon<Vector3d, 5>;  // one corner may be cut off
 
 // The part above the table (z >= 0); corners in the board's frame.
 CutQuad above_table(const CutQuad& quad_m) {
@@ -53,7 +53,7 @@ CutQuad above_table(const CutQuad& quad_m) {
       });
 }
 
-// The outline in pixels, long edges in pieces.
+// The outline in pixels, with long edges divided.
 void outline(const CutQuad& corners_m, const Pose& camera_from_board, const Lens& lens,
              std::vector<Eigen::Vector2d>& outline_px) {
   outline_px.clear();
@@ -110,9 +110,9 @@ void draw_face(const PrintedFace& face, const SeenBody& body, const Lens& lens,
 namespace {
 using Eigen::Vector3d;
 
-const Eigen::Array3f wall{0.30F, 0.30F, 0.28F};  // where a ray passes over the table
+const Eigen::Array3f wall{0.30F, 0.30F, 0.28F};  // for rays that miss the table
 
-// Rays are worked out at every so many pixels; wood does not mind the rest being interpolated.
+// Rays are computed at every so many pixels and interpolated for the wood.
 constexpr int undistorted_px = 16;
 
 // Wood: soft streaks along x, all much wider than a pixel.
@@ -129,7 +129,7 @@ Eigen::Array3f behind_the_board(const Vector3d& eye_m, const Vector3d& ray) {
   return material::table * grain(point_m.x(), point_m.y());
 }
 
-// Of one of every so many fine pixels of a row: wood has nothing finer than a picture's pixel.
+// One of every so many fine pixels of a row, because wood has no finer detail.
 void draw_wood(int y, const Vector3d& eye_m, const Eigen::Quaterniond& board_from_camera,
                const Lens& lens, std::span<Light> wood) {
   Eigen::Vector2d ray(0, 0), step(0, 0);

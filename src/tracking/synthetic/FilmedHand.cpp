@@ -12,7 +12,7 @@ using Eigen::Vector2f;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-// Four neighboring pixels of a row at a time: the hand is most of a picture's work.
+// Four neighboring pixels of a row at a time: the hand takes most of a picture's rendering time.
 using Four = Eigen::Array4f;
 struct FourVectors {
   Four x, y, z;
@@ -26,7 +26,7 @@ inline Four clamped(const Four& value) {
   return value.max(0.0F).min(1.0F);
 }
 
-// Eigen's is an approximation that differs from processor to processor.
+// Eigen's is an approximation that differs between processors.
 inline Four root(const Four& value) {
   Four roots;
   for (int i = 0; i < 4; ++i) roots[i] = std::sqrt(value[i]);
@@ -41,15 +41,15 @@ struct Plane {
 };
 }  // namespace
 
-// All that the skin has to be compared with, in the camera's frame; float is plenty.
+// Objects that occlude the skin or are occluded by it, in the camera's frame; float suffices.
 struct FilmedHand::Surroundings {
   Plane table;
-  std::array<Plane, 3> seen_faces;  // of the box; those that are not seen have a zero normal
+  std::array<Plane, 3> seen_faces;  // of the box; hidden ones have a zero normal
   Vector3f lamp;
 
   Surroundings(const SeenBody& effector, const Vector3d& half_m);
 
-  // A point outside of a face that the camera sees is before the box, any other is not.
+  // A point outside of a visible face is in front of the box, any other is not.
   template <typename Point>
   auto before_box_m(const Point& point_m) const {
     return larger(larger(seen_faces[0].above_m(point_m), seen_faces[1].above_m(point_m)),
@@ -77,14 +77,14 @@ FilmedHand::Surroundings::Surroundings(const SeenBody& effector, const Vector3d&
   for (std::size_t i = 0; i < 3; ++i) {
     const auto axis = static_cast<Eigen::Index>(i);
     Vector3d normal = camera_from_body * Vector3d::Unit(axis);
-    if (normal.dot(center_m) > 0) normal = -normal;  // of the two faces, the nearer
+    if (normal.dot(center_m) > 0) normal = -normal;  // the nearer of the two faces
     seen_faces[i] = plane_through(center_m + half_m[axis] * normal, normal);
     const bool looks_away = -seen_faces[i].offset_m <= 0;  // the camera is at 0
     if (looks_away) seen_faces[i] = {Vector3f::Zero(), 1};
   }
 }
 
-// Of four pixels: how much of them the skin covers, and how much of the lamp falls on it.
+// For four pixels: coverage by skin, and the lamp's light on it.
 struct FilmedHand::SkinInRow {
   Four coverage, lamp;
 };
@@ -112,8 +112,8 @@ PixelBox FilmedHand::SeenCone::box() const {
   return reach(from_px, from_radius_px).around(reach(to_px, to_radius_px));
 }
 
-// Of a slanted cone a row has much less than its box: what lies between the two lines beside its
-// axis.
+// A row has much less of a slanted cone than its bounding box: the part between the lines beside
+// its axis.
 std::pair<int, int> FilmedHand::SeenCone::columns_in_row(int y, const PixelBox& area) const {
   const Vector2f along = to_px - from_px;
   if (std::abs(along.y()) < 1) return {area.x0, area.x1};
@@ -127,7 +127,7 @@ std::pair<int, int> FilmedHand::SeenCone::columns_in_row(int y, const PixelBox& 
   return {column(middle - reach), column(middle + reach + 1)};
 }
 
-// Spares most cones one of the two drawings.
+// Saves most cones one of the two drawings.
 bool FilmedHand::SeenCone::may_be(Side side, const Surroundings& surroundings) const {
   const float from = surroundings.before_box_m(from_m), to = surroundings.before_box_m(to_m);
   if (side == Side::before_box) return from > -from_radius_m || to > -to_radius_m;
@@ -140,7 +140,7 @@ bool FilmedHand::SeenCone::may_be(Side side, const Surroundings& surroundings) c
 // right side.
 FilmedHand::FilmedHand(const Vector3d& box_size_m, bool left) : half_m_(box_size_m / 2) {
   const double y = half_m_.y(), z = half_m_.z();
-  const double grip = std::min(0.034, 0.36 * box_size_m.x());  // how far fingers reach over the box
+  const double grip = std::min(0.034, 0.36 * box_size_m.x());  // extent of the fingers over the box
   const auto add = [&](const Vector3d& from, const Vector3d& to, double from_radius,
                        double to_radius) {
     const Vector3d back(-half_m_.x(), 0, 0), mirrored(1, left ? -1 : 1, 1);
@@ -162,7 +162,7 @@ FilmedHand::FilmedHand(const Vector3d& box_size_m, bool left) : half_m_(box_size
   }
 }
 
-// An arm may go past the camera: it ends where it would come too near, beyond the picture's edge.
+// The arm is cut where it would come too near to the camera, beyond the picture's edge.
 FilmedHand::Ball FilmedHand::far_enough(const Cone& cone, const Vector3d& from_m,
                                         const Vector3d& to_m) {
   if (to_m.z() >= nearest_m) return {to_m, cone.to_radius_m};
@@ -201,8 +201,8 @@ void FilmedHand::draw(Side side, const SeenBody& effector, const Lens& lens,
     if (cone.may_be(side, surroundings)) cone.draw(side, surroundings, picture);
 }
 
-// Of each pixel: the nearest point of the axis, how far across the cone it is, and from that the
-// skin's point and normal. What is not to be drawn here gets no coverage.
+// For each pixel: the nearest point of the axis, its position across the cone, and thus the skin's
+// point and normal. Skin not to be drawn here gets no coverage.
 inline FilmedHand::SkinInRow FilmedHand::SeenCone::skin_at(int x, int y, Side side,
                                                            const Surroundings& near) const {
   const Vector2f along_px = to_px - from_px;
@@ -232,7 +232,7 @@ inline FilmedHand::SkinInRow FilmedHand::SeenCone::skin_at(int x, int y, Side si
           dot(near.lamp, normal).max(0.0F)};
 }
 
-// Much of the hand is hidden by the rest of it.
+// Much of the hand is hidden by its other parts.
 inline bool all_covered(std::span<const Light> pixels) {
   return std::ranges::all_of(pixels, [](const Light& light) { return light[3] >= 1; });
 }

@@ -15,11 +15,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double sheet_margin_m = 0.006;
-constexpr double off_face_m = 0.003;    // how far a badly glued label may be off its face
-constexpr double upright_cosine = 0.9;  // and how well it still faces the same way
+constexpr double off_face_m = 0.003;    // tolerance of a badly glued label
+constexpr double upright_cosine = 0.9;  // and of its direction
 
-// A tag's cells as a grid over its four corners. In between them bilinear, which is exact for
-// parallelograms; cells count from the detected border's top left.
+// A tag's cells as a grid over its four corners: bilinear, which is exact for parallelograms. Cells
+// are counted from the detected border's top left.
 class CellGrid {
  public:
   CellGrid(const Tag& tag, const TagPattern& pattern)
@@ -48,7 +48,7 @@ void add_black_cells(PrintedFace& face, const CellGrid& grid, const TagPattern& 
                               change(material::paper, material::ink)});
 }
 
-// Quadrilaterals side by side; of three corners left over the last counts twice.
+// Quadrilaterals side by side; for a remaining triangle the last corner is repeated.
 std::vector<std::array<Vector3d, 4>> in_quads(const std::vector<Vector3d>& corners_m) {
   std::vector<std::array<Vector3d, 4>> quads;
   for (std::size_t i = 1; i + 1 < corners_m.size(); i += 2)
@@ -72,8 +72,8 @@ bool lies_on(const FaceFrame& frame, const Tag& tag) {
          (frame.flat(tag_center_m(tag)).cwiseAbs().array() < frame.size_m.array() / 2).all();
 }
 
-// The smallest upright rectangle on a face around everything that its tags print, quiet zones
-// included, and a margin; cut off at the face's edges.
+// The smallest upright rectangle on a face around its tags' prints, including quiet zones, and a
+// margin; clipped to the face.
 class Paper {
  public:
   void add(const FaceFrame& frame, const CellGrid& grid, int n_cells) {
@@ -116,7 +116,7 @@ void check_on_box(const std::vector<FaceFrame>& frames, const Tag& tag) {
   if (std::ranges::none_of(frames, [&](const FaceFrame& frame) { return lies_on(frame, tag); }))
     throw Error(
         fmt::format("the synthetic camera shows tags on the effector's faces, but tag {} "
-                    "lies on none of them; check size_m and the tag's corners",
+                    "is on none of them; check size_m and the tag's corners",
                     tag.id));
 }
 

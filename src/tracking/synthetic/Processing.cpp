@@ -8,7 +8,7 @@
 namespace heft {
 
 namespace {
-// Blue, green over green, red: of each pixel one color is kept.
+// Bayer mosaic of blue, green over green, red: each pixel keeps one color.
 cv::Mat through_mosaic(const cv::Mat& picture) {
   cv::Mat one_color(picture.size(), CV_8UC1), colors;
   for (int y = 0; y < picture.rows; ++y)

@@ -1,5 +1,4 @@
-// What a camera's processor makes of a picture before anybody gets it, all by OpenCV: colors
-// interpolated between a mosaic's, sharpening, JPEG.
+// Processing within a camera, by OpenCV: colors interpolated from a mosaic, sharpening, JPEG.
 #pragma once
 
 #include "base/Image.h"
@@ -7,8 +6,8 @@
 
 namespace heft {
 
-/// @param picture in three channels
-/// @throws Error when the codecs' module is not there
+/// @param picture with three channels
+/// @throws Error if the codecs' module is missing
 Image processed(Image picture, const Optics& optics);
 
 }  // namespace heft

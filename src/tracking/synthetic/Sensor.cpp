@@ -12,8 +12,8 @@ namespace heft {
 namespace {
 constexpr std::size_t noise_length = 1 << 20;
 
-// From the middle of a pixel outwards: what a fine pixel's light counts, of both halves' sum 1. The
-// Gaussian, spread over the fine pixels that one of the picture's consists of.
+// Weights of fine pixels from the middle of a pixel outwards; both halves together have sum 1. A
+// Gaussian, convolved with the extent of a picture's pixel.
 std::vector<float> half_kernel(double sd_px) {
   const double sd = fineness * sd_px;
   const int reach = static_cast<int>(std::ceil(4 * sd));
@@ -30,11 +30,11 @@ std::vector<float> half_kernel(double sd_px) {
   }
   return kernel;
 }
-static_assert(fineness % 2 == 0, "the kernel has no middle of its own");
+static_assert(fineness % 2 == 0, "the kernel has no middle pixel");
 
-// Nearly normal from whole numbers alone, so that every machine draws the same: the sum of eight
-// uniform 16-bit numbers, cut off at 4.9 sd, and at what 16 bits hold above the highest level. Each
-// three times, for a pixel's channels.
+// Nearly normal numbers by integer arithmetic, so that every machine draws the same: the sum of
+// eight uniform 16-bit numbers, limited to 4.9 SD and to the range of 16 bits above the highest
+// level. Each three times, for a pixel's channels.
 std::vector<std::int16_t> noise_row(double sd, std::uint64_t seed) {
   constexpr double most = 208 * level_steps;
   std::vector<std::int16_t> row;
@@ -59,8 +59,8 @@ bool has_uneven_light(const Optics& optics) {
   return optics.shadow > 0 || optics.glare > 0;
 }
 
-// A row of light, blurred: row_at(n) is the same row n fine steps away, of which 0 and 1 are at the
-// picture's middle; each place of the sums is `stride` of theirs.
+// Blurs a row of light: row_at(n) is the row n fine steps away, of which 0 and 1 are at the
+// picture's middle; each place of the sums is `stride` places of the rows.
 template <int stride, typename RowAt>
 void blur_row(std::span<const float> kernel, std::span<Light> sums, RowAt row_at) {
   std::ranges::fill(sums, Light::Zero());
@@ -73,7 +73,7 @@ void blur_row(std::span<const float> kernel, std::span<Light> sums, RowAt row_at
   }
 }
 
-// 16 bits hold every level and its noise, so that eight are done at a time.
+// 16 bits hold every level and its noise, so that eight are processed at a time.
 void develop_row(const std::int16_t* levels, const std::int16_t* noise,
                  std::span<std::uint8_t> out) {
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -97,8 +97,8 @@ Sensor::Sensor(const Optics& optics, int width_px, int height_px, std::uint64_t 
   for (int x = 0; x < width_; ++x) lost_by_column_.push_back(lost_light(x, width_));
 }
 
-// Vignetting takes light with the square of the distance from the middle: so much of it for the
-// distance one way.
+// Vignetting grows with the squared distance from the middle: the part for the distance along one
+// axis.
 float Sensor::lost_light(int place, int n_places) const {
   const double from_middle = place - (n_places - 1) / 2.0;
   return static_cast<float>(lost_per_px2_ * from_middle * from_middle);
@@ -129,7 +129,7 @@ void Sensor::blur_across_rows(int y, const Span& span) {
   });
 }
 
-// Blurred light to levels.
+// Converts blurred light to levels.
 void Sensor::expose_row(int y, const Span& span, std::int16_t* levels) {
   const std::size_t n = row_.size();
   const float gain = static_cast<float>(optics_.exposure) - lost_light(y, height_);
@@ -155,7 +155,7 @@ void Sensor::expose(const LightPicture& sharp, const RowSpans& spans, Levels& le
   }
 }
 
-// Every row of every picture takes its noise from a place of its own in the long row.
+// Every row of every picture takes its noise from its own place in the long row.
 Image Sensor::noisy(const Levels& levels, std::uint64_t number) const {
   Image image(width_, height_, 3);
   RandomStream places(seed_, "camera noise place", number);

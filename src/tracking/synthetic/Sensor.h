@@ -1,5 +1,5 @@
-// From light to bytes: the lens' blur, vignetting, exposure, uneven light, the tone curve, noise,
-// rounding, and what the camera's processor does then.
+// From light to bytes: the lens's blur, vignetting, exposure, uneven light, the tone curve, noise,
+// rounding, and the camera's processing.
 #pragma once
 
 #include <cstdint>
@@ -16,22 +16,22 @@ class Sensor {
  public:
   Sensor(const Optics& optics, int width_px, int height_px, std::uint64_t seed);
 
-  /// How far the blur reaches, in fine pixels, and in the picture's.
+  /// Extent of the blur in fine pixels, and in the picture's.
   int fine_reach() const { return static_cast<int>(kernel_.size()); }
   int reach_px() const { return (fine_reach() + fineness - 1) / fineness; }
 
   /// Writes these parts of a picture, blurred, into the levels of the whole picture. They need the
-  /// light around them as far as the blur reaches; beyond the picture's edges it is like there.
+  /// light around them within the blur's extent; beyond the picture's edges the light continues.
   /// @param sharp in fine pixels  @param spans of the picture's pixels
   void expose(const LightPicture& sharp, const RowSpans& spans, Levels& levels);
 
-  /// Where a pixel's first channel is in the levels.
+  /// Index of a pixel's first channel in the levels.
   std::ptrdiff_t place_of(int x, int y) const {
     return (static_cast<std::ptrdiff_t>(y) * width_ + x) * 3;
   }
 
   /// Adds the noise of that picture, rounds and processes it.
-  /// @param effector_px where it is seen, if it is
+  /// @param effector_px its position, if it is visible
   Image develop(const Levels& levels, std::uint64_t number,
                 const std::optional<Eigen::Vector2d>& effector_px = std::nullopt) const;
 
@@ -45,15 +45,15 @@ class Sensor {
   Optics optics_;
   int width_, height_;
   std::uint64_t seed_;
-  double lost_per_px2_;  ///< light, with the square of the distance from the middle
+  double lost_per_px2_;  ///< fraction of light, times the squared distance from the middle
   std::vector<float> lost_by_column_;
-  /// Half of a symmetric one, of fine pixels, from a pixel's middle outwards: its own extent and
-  /// the blur.
+  /// Half of a symmetric kernel of fine pixels, from a pixel's middle outwards: its extent and the
+  /// blur.
   std::vector<float> kernel_;
-  LevelCurve curve_;  ///< sRGB's before uneven light
+  LevelCurve curve_;  ///< sRGB if followed by uneven light
   std::optional<UnevenLight> uneven_light_;
-  std::vector<std::int16_t> noise_;  ///< a long row of independent draws for three channels each
-  LightPicture along_rows_;          ///< blurred that way: fine rows of the picture's columns
+  std::vector<std::int16_t> noise_;  ///< a long row of independent draws, three channels each
+  LightPicture along_rows_;          ///< blurred along rows: fine rows of the picture's columns
   std::vector<Light> row_, padded_row_;
   std::vector<int> places_;  ///< of a row's light in the curve
 };

@@ -14,9 +14,9 @@ namespace heft {
 namespace {
 using Eigen::Vector3d;
 
-// Renderings this far apart blend into one smear: with a blur of .6 px the ripple is 1e-4 of it.
+// Renderings this far apart merge into one smear: with a blur of 0.6 px the ripple is 1e-4 of it.
 constexpr double smear_step_px = 1.0;
-constexpr double still_px = 0.02;  // less than this over the exposure is no motion
+constexpr double still_px = 0.02;  // less during the exposure counts as no motion
 constexpr int most_motion_samples = 64;
 
 double largest_move_px(const std::vector<PrintedFace>& faces, const SeenBody& from,
@@ -39,7 +39,7 @@ void scale_tags(MarkerBody& body, double scale) {
   }
 }
 
-// What is in front of the camera, and its lens.
+// The true board, effector and lens.
 Apparatus as_it_is(Apparatus apparatus, const FileErrors& files) {
   scale_tags(apparatus.board, files.board_tag_scale);
   scale_tags(apparatus.effector, files.effector_tag_scale);
@@ -87,19 +87,19 @@ struct SyntheticCamera::Impl {
   void forget(const RowSpans& changed);
 
   SyntheticSettings settings;
-  Lens coarse_lens;  ///< of the picture's pixels
-  Lens lens;         ///< of fine ones, as all light is but the hand's
+  Lens coarse_lens;  ///< for the picture's pixels
+  Lens lens;         ///< for fine ones, used for all light but the hand's
   std::vector<PrintedFace> effector;
   FilmedHand hand;
   Sensor sensor;
   LightPicture still;   ///< table and board, not blurred
-  Levels still_levels;  ///< the same, as the sensor has it
-  Levels levels;        ///< the same, between pictures
+  Levels still_levels;  ///< the same as levels of the sensor
+  Levels levels;        ///< the same, restored between pictures
   AreaRaster raster;
   LightPicture instant;  ///< the effector at one moment
-  /// Before it and behind it, in the picture's pixels: nobody measures a hand's edges.
+  /// In front of it and behind it, in the picture's pixels, since a hand's edges are not measured.
   LightPicture hand_before, hand_behind;
-  LightPicture moving;  ///< its mean over the exposure, in the hand, before the still scene
+  LightPicture moving;  ///< its mean over the exposure, in the hand, in front of the still scene
 };
 
 SyntheticCamera::Impl::Impl(const Apparatus& apparatus, const SyntheticSettings& with,
@@ -115,7 +115,7 @@ SyntheticCamera::Impl::Impl(const Apparatus& apparatus, const SyntheticSettings&
   levels = still_levels;
 }
 
-// As many as the smear is long, so that it has no steps.
+// Enough for the length of the smear, so that it has no steps.
 int SyntheticCamera::Impl::motion_samples(const EffectorPath& path, double t_s) const {
   const double half_s = settings.optics.exposure_s / 2;
   const auto opens = path(t_s - half_s), closes = path(t_s + half_s);
@@ -142,7 +142,7 @@ PixelBox SyntheticCamera::Impl::extent(const Pose& pose) const {
   return settings.hand ? box->around(hand.extent(seen(pose), lens)) : *box;
 }
 
-// Within a box of fine pixels, as it is at one moment. False: it is not there.
+// Draws the effector at one moment, within a box of fine pixels. @return false: out of view
 bool SyntheticCamera::Impl::draw_effector(const Pose& pose, const PixelBox& box) {
   const SeenBody body = seen(pose);
   const auto extent = extent_of(effector, body, lens);
@@ -163,7 +163,7 @@ void SyntheticCamera::Impl::draw_hand(const Pose& pose, const PixelBox& box) {
   hand.draw(FilmedHand::Side::behind_box, body, coarse_lens, hand_behind);
 }
 
-// What has been drawn of the effector, between the parts before it and behind it.
+// Combines the drawn effector with the parts of the hand in front of it and behind it.
 void SyntheticCamera::Impl::put_into_hand(const PixelBox& box) {
   const RowSpans before = RowSpans::covered(hand_before), behind = RowSpans::covered(hand_behind);
   for (int y = box.y0; y < box.y1; ++y) {
@@ -174,7 +174,7 @@ void SyntheticCamera::Impl::put_into_hand(const PixelBox& box) {
   }
 }
 
-// Of every row's exposure, from the first one's to the last one's.
+// During every row's exposure, from the first to the last.
 PixelBox SyntheticCamera::Impl::reached(const EffectorPath& path, double t_s) const {
   const int n_times = optics().readout_s > 0 ? 16 : 1;
   PixelBox box;
@@ -188,7 +188,7 @@ PixelBox SyntheticCamera::Impl::reached(const EffectorPath& path, double t_s) co
   return fine_of(coarse_of(box).grown(2 * sensor.reach_px() + between_px)).within(still.box);
 }
 
-// The middle of it, when its own row is exposed.
+// The effector's middle, when its own row is exposed.
 std::optional<Eigen::Vector2d> SyntheticCamera::Impl::effector_px(const EffectorPath& path,
                                                                   double t_s) const {
   const auto seen_at = [&](double at_s) -> std::optional<Eigen::Vector2d> {
@@ -202,7 +202,7 @@ std::optional<Eigen::Vector2d> SyntheticCamera::Impl::effector_px(const Effector
   return seen_at(t_s + optics().readout_s * early_px->y() / coarse_lens.camera().height_px);
 }
 
-// The effector is smeared over the exposure; the hand around it is as in the middle.
+// The effector is smeared over the exposure; the hand is drawn at its middle.
 void SyntheticCamera::Impl::draw_moving(const std::vector<std::optional<Pose>>& poses,
                                         const PixelBox& box) {
   const float weight = 1 / static_cast<float>(poses.size());
@@ -219,13 +219,13 @@ void SyntheticCamera::Impl::draw_moving(const std::vector<std::optional<Pose>>& 
   put_into_hand(box);
 }
 
-// A rolling shutter's rows two by two of the picture's: at 0.5 m/s, over 25 ms, their edges have
-// steps of a twentieth of a pixel.
+// Renders a rolling shutter's rows in pairs: at 0.5 m/s, with 25 ms, edges have steps of 0.05
+// pixel.
 void SyntheticCamera::Impl::draw_moving(const EffectorPath& path, double t_s) {
   constexpr int rows_at_once = 2 * fineness;
   const PixelBox all = moving.box;
   if (!(optics().readout_s > 0)) return draw_moving(poses_while_open(path, t_s), all);
-  const double row_s = optics().readout_s / lens.camera().height_px;  // of fine rows
+  const double row_s = optics().readout_s / lens.camera().height_px;  // per fine row
   for (int y = all.y0; y < all.y1; y += rows_at_once) {
     const double middle = y + (rows_at_once - 1) / 2.0;
     draw_moving(poses_while_open(path, t_s + row_s * middle),
@@ -257,8 +257,8 @@ SyntheticCamera::~SyntheticCamera() = default;
 SyntheticCamera::SyntheticCamera(SyntheticCamera&&) noexcept = default;
 SyntheticCamera& SyntheticCamera::operator=(SyntheticCamera&&) noexcept = default;
 
-// Only what hand and effector reach is rendered; the blur reaches a little farther, and needs to
-// know as much again.
+// Renders only the reach of hand and effector, extended by twice the blur's extent: once for
+// blurred pixels and once for their input.
 Image SyntheticCamera::picture(const EffectorPath& board_from_effector, double t_s,
                                std::uint64_t number) {
   Impl& p = *impl_;

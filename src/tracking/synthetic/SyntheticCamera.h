@@ -1,6 +1,6 @@
-// A camera that renders what a real one would film: a table, the printed board, a hand that holds
-// the effector with its tags; through a lens, with an exposure time and a sensor. Its pixels go to
-// the same tracker. Exact ground truth: the poses it was given.
+// Renders a camera's pictures: a table, the printed board, a hand that holds the effector with its
+// tags; through a lens, with an exposure time and a sensor. The pictures are processed by the same
+// tracker, and the true poses are known.
 #pragma once
 
 #include <cstdint>
@@ -14,49 +14,49 @@
 
 namespace heft {
 
-/// The camera that the project's goals are stated for: fx 540 at 640 pixels across, 1000 at 1280,
-/// others in proportion; distortion k1 .06, k2 -.15.
+/// The camera of the project's goals: fx 540 at 640 pixels across, 1000 at 1280, others in
+/// proportion; distortion k1 0.06, k2 -0.15.
 Intrinsics default_camera(int width_px, int height_px);
 
 struct Optics {
-  double blur_px = 0.6;  ///< sd of the lens' blur, on linear light; more where out of focus
-  /// The tone curve: light to the power of 1/gamma is stored, 1 being linear; none: sRGB.
+  double blur_px = 0.6;  ///< SD of the lens's blur, in linear light; larger out of focus
+  /// Tone curve: stored is light to the power of 1/gamma, 1 being linear; none: sRGB.
   std::optional<double> gamma = std::nullopt;
   double vignetting = 0.3;  ///< fraction of light lost in the corners; grows with distance squared
   double exposure = 1;      ///< 1: white paper just below saturation
-  double noise = 3;  ///< sd, of 255; the same in all three channels, so gray pictures have it too
-  double exposure_s = 0.004;  ///< how long the shutter is open; moving things blur
-  double readout_s = 0;  ///< how much later the last row is exposed than the first; they lean, too
+  double noise = 3;         ///< SD in gray levels of 255; equal in all three channels, so that gray
+                            ///< pictures have it, too
+  double exposure_s = 0.004;  ///< exposure time; moving objects are blurred
+  double readout_s = 0;       ///< delay of the last row after the first; moving objects are sheared
 
-  // What other cameras, and the light before them, do to a picture, in the order in which it comes.
-  /// Light that is missing on one side of a line through the effector, 1 being all of it.
+  // Imperfections of other cameras and of light, in the order of their effect:
+  /// Fraction of light missing on one side of a line through the effector.
   double shadow = 0;
-  /// Light that a lamp's reflection adds on the effector, 1 being white; half of it at a sixteenth
-  /// of the picture's width from there.
+  /// Light added by a lamp's reflection on the effector, relative to white; half of it at a
+  /// sixteenth of the picture's width from there.
   double glare = 0;
-  double film_curve = 0;  ///< share of what is stored that bends as film does: a toe, a shoulder
-  double s_curve = 0;     ///< contrast in the middle of what is stored, 1 being v^2 (3 - 2 v)
+  double film_curve = 0;  ///< weight of a film curve, with a toe and a shoulder, on stored values
+  double s_curve = 0;     ///< weight of mid-tone contrast, v^2 (3 - 2 v), on stored values
   bool mosaic = false;    ///< each pixel has one color, the others are interpolated
-  double sharpening = 0;  ///< of the stored values: what a blur of 1 px takes off, times it
-  int jpeg_quality = 0;   ///< of libjpeg's scale, 1 to 100; 0: not compressed
+  double sharpening = 0;  ///< factor of the difference to a blur of 1 px, on stored values
+  int jpeg_quality = 0;   ///< libjpeg's scale, 1 to 100; 0: not compressed
 };
 
-/// How things are against what the files of the apparatus say.
+/// True values relative to the files of the apparatus.
 struct FileErrors {
   double board_tag_scale = 1, effector_tag_scale = 1;  ///< tags about their centers
   double focal_length_scale = 1;
 };
 
 struct SyntheticSettings {
-  /// Where the camera stands; the default looks down on the whole board from the participant's
-  /// side.
+  /// The camera's pose; the default sees the whole board from the participant's side.
   Pose camera_from_board;
   Optics optics;
   FileErrors files;
-  bool hand = true;  ///< a hand that holds the effector's back end and occludes
+  bool hand = true;  ///< draws a hand that holds the effector's back end and occludes
   bool left_hand = false;
-  /// Renderings averaged over the exposure where the effector moves, at least; more where it smears
-  /// so far that they would show.
+  /// Minimum number of renderings averaged over the exposure while the effector moves; more if the
+  /// smear is so long that they would be visible.
   int motion_samples = 4;
 
   SyntheticSettings();
@@ -67,21 +67,22 @@ class SyntheticCamera {
   /// The effector over time, seconds; none: out of view.
   using EffectorPath = std::function<std::optional<Pose>(double t_s)>;
 
-  /// @param seed of the noise; the same seed, number and path give the same pixels
-  /// @param apparatus as its files have it
-  /// @throws Error for an unknown tag family, a board tag that does not lie on the table, an
-  ///   effector tag that does not lie on a face of the box
+  /// @param seed of the noise; equal seed, number and path give equal pixels
+  /// @param apparatus as described by its files
+  /// @throws Error for an unknown tag family, a board tag that is not on the table, an effector tag
+  /// that is not on
+  ///   a face of the box
   SyntheticCamera(const Apparatus& apparatus, const SyntheticSettings& settings,
                   std::uint64_t seed);
   ~SyntheticCamera();
   SyntheticCamera(SyntheticCamera&&) noexcept;
   SyntheticCamera& operator=(SyntheticCamera&&) noexcept;
 
-  /// The picture whose exposure, of its first row, has its middle at t_s. @param number of the
-  /// picture: its noise
+  /// The picture whose first row's exposure has its middle at t_s. @param number of the picture,
+  /// for its noise
   Image picture(const EffectorPath& board_from_effector, double t_s, std::uint64_t number);
 
-  /// What of a picture is hand, as it is seen: 255 wholly, one channel.
+  /// Coverage by the visible hand: 255 completely, one channel.
   Image hand_in_picture(const Pose& board_from_effector);
 
  private:

@@ -52,7 +52,7 @@ std::vector<float> light_of_levels() {
 
 namespace {
 constexpr float penumbra_px = 2;
-constexpr float across_x = 0.8F, across_y = 0.6F;  // the shadow's edge is at a slant to the tags
+constexpr float across_x = 0.8F, across_y = 0.6F;  // the shadow's edge is slanted to the tags
 }  // namespace
 
 UnevenLight::UnevenLight(const Optics& optics, int width_px)

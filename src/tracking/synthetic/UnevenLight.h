@@ -1,5 +1,5 @@
-// Light that is not the same all over the picture: a shadow's edge over the effector, wherever it
-// goes, and a lamp's reflection on it.
+// Uneven light: a shadow's edge across the effector, which follows it, and a lamp's reflection on
+// it.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,21 +12,20 @@
 
 namespace heft {
 
-// From light to gray levels: the tone curve of a synthetic camera, looked up in a table.
+// The tone curve of a synthetic camera, from light to gray levels, as a table.
 
 struct Optics;
 
-/// Gray levels (0...255) as the sensor has them before noise, in 1/64, so that no rounding but the
-/// last one counts. Rows from the top, three channels.
+/// Gray levels (0...255) before noise, in 1/64, so that only the final rounding matters. Rows from
+/// the top, three channels.
 using Levels = std::vector<std::int16_t>;
 inline constexpr int level_steps = 64;
-/// Noise comes before the clipping of white, so levels go on above it until no noise brings them
-/// back.
+/// Noise is added before white is clipped, so levels extend above it as far as noise reaches.
 inline constexpr double most_light = 1.4, most_level = 300;
 
 class LevelCurve {
  public:
-  /// Of the optics the tone curve alone counts.
+  /// Uses the tone curve of the optics only.
   explicit LevelCurve(const Optics& optics);
 
   /// @param light 0 to most_light
@@ -37,22 +36,23 @@ class LevelCurve {
   std::int16_t at(int place) const { return levels_[static_cast<std::size_t>(place)]; }
 
  private:
-  // Seen over the root of light, the curve is steep nowhere: the nearest of so many values is
-  // within 1/300 level, of a gamma of 2.2 within 1/75 in the dark.
+  // As a function of the root of light, the curve has no steep part: the nearest of so many values
+  // is accurate to 1/300 level, for a gamma of 2.2 in the dark to 1/75.
   static constexpr int intervals = 65535;
   std::vector<std::int16_t> levels_;  ///< at equally spaced roots of light
 };
 
-/// sRGB's light of each level, the other way round.
+/// The inverse of sRGB: light of each level.
 std::vector<float> light_of_levels();
 
 class UnevenLight {
  public:
   UnevenLight(const Optics& optics, int width_px);
 
-  /// A picture in that light, by the camera's tone curve.
-  /// @param even the same picture without, by sRGB  @param at_px where the effector is seen; none:
-  /// shadow and reflection are out of the picture, too
+  /// A picture in uneven light, by the camera's tone curve.
+  /// @param even the same picture in even light, by sRGB  @param at_px position of the effector;
+  /// none: shadow and
+  ///   reflection are out of the picture, too
   Levels on(const Levels& even, const std::optional<Eigen::Vector2d>& at_px) const;
 
  private:
@@ -62,7 +62,7 @@ class UnevenLight {
   float shadow_, glare_, glare_px_;
   int width_;
   LevelCurve curve_;
-  std::vector<float> light_;  ///< of levels
+  std::vector<float> light_;  ///< by level
 };
 
 }  // namespace heft
