@@ -195,17 +195,12 @@ class PlainWords(unittest.TestCase):
         r"\b(?:class|struct|enum class) (?:Setup|Noticed|Judging|Mind|Slid|Finish|Unseen|Fold)\b",
     ]), re.I)
 
-    # Folders whose comments and messages are still to be reworded; none may be added.
-    NOT_YET = {("src", folder) for folder in ("apparatus", "cli", "protocol", "replay", "responders",
-                                              "session", "tracking", "view", "window")}
-
     def test_sources_and_readmes_use_them(self):
         pages = [path for path in files_in(ROOT) if path.name == "README.md"]
         pages = [path for path in pages if path != SRC / "record" / "README.md"]  # lists renamed words
         found = [f'{path.relative_to(ROOT)}:{number}: "{word}"'
                  for path in pages + [path for path in files_in(SRC) if path.suffix != ".md"]
                  if path.name != "Upgrade.cpp"  # renames words of older logs
-                 if path.relative_to(ROOT).parts[:2] not in self.NOT_YET
                  for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
                  for word in self.WORDS.findall(line)]
         if found:

@@ -15,13 +15,13 @@ class AttemptReplay {
  public:
   AttemptReplay(const Protocol& protocol, const AttemptFold& attempt);
 
-  /// Runs the world to the next logged frame.
+  /// Advances the world to the next logged frame.
   ShownFrame advance(const FrameRow& frame);
 
-  /// Lets go of what is still touched when the attempt ends.
+  /// Ends the current contacts at the attempt's end.
   void finish(double ended_s);
 
-  /// What the world said so far, in session time, as the runner logs it.
+  /// The world's events so far, in session time, as the runner logs them.
   const std::vector<Event>& derived() const { return derived_; }
 
  private:
@@ -34,16 +34,15 @@ class AttemptReplay {
   std::vector<Event> derived_;
 };
 
-/// All that a row keeps of what was displayed.
+/// The displayed frame of a row.
 DisplayedFrame displayed(const FrameRow& row);
 
-/// The session folded, once its digests and its events are found sound: what is computed from
-/// others would tell of a session that never was.
+/// The folded session, after its digests and events have been verified.
 /// @throws Error (diverged) naming the first fault
 Projection sound_fold(const LogReader& reader, const LoggedSession& session);
 
-/// The attempt's frames up to an event of its session (counted from 0), without those that a
-/// pause's page hid.
+/// The attempt's frames up to an event of its session (counted from 0), without those hidden by a
+/// pause's page.
 std::vector<DisplayedFrame> seen_frames(const AttemptFold& attempt,
                                         const std::vector<FrameRow>& rows, int up_to_event);
 
