@@ -12,7 +12,7 @@
 #include "physics/DecouplingSimulator.h"
 #include "physics/auto/Choice.h"
 #include "physics/scene/Oracles.h"
-#include "protocol/study/ExpectedLength.h"
+#include "protocol/Protocol.h"
 #include "record/writer/Backup.h"
 #include "session/Session.h"
 

@@ -6,7 +6,6 @@
 #include "responders/ResponderParameters.h"
 #include "responders/decision/Answering.h"
 #include "responders/decision/Decision.h"
-#include "responders/decision/Questions.h"
 #include "responders/hand/Hand.h"
 #include "responders/perception/Perception.h"
 

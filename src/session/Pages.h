@@ -9,6 +9,7 @@
 
 #include "experiment/Event.h"
 #include "experiment/ScreenState.h"
+#include "experiment/ScreenTexts.h"
 #include "protocol/Protocol.h"
 #include "responders/Responder.h"
 #include "session/SessionControl.h"
@@ -116,6 +117,22 @@ class Pages {
   ResumeState gone_;
   std::set<std::string> instructed_;  // blocks whose instructions were read in this run
   AskedMind asked_;
+};
+
+class QuestionnaireResponder {
+ public:
+  /// @param screen the questionnaire's; its existing entries are not answered again
+  QuestionnaireResponder(const Responder& mind, const Questionnaire& form,
+                         const ScreenState& screen);
+
+  /// New touches until a time after the page appeared: an answer or none every few seconds, then
+  /// the button "next".
+  std::vector<Touch> touch(double elapsed_s);
+
+ private:
+  std::vector<Touch> touches_;
+  std::vector<double> at_s_;
+  std::size_t n_given_ = 0;
 };
 
 }  // namespace heft

@@ -9,6 +9,7 @@
 
 #include "base/Error.h"
 #include "base/Names.h"
+#include "base/Program.h"
 #include "base/files/TextFile.h"
 #include "tracking/codecs/Codecs.h"
 #include "view/Window.h"
@@ -107,6 +108,12 @@ std::span<const ViewEntry> views() {
 
 const ViewEntry& view_named(std::string_view name) {
   return entry_named("view", name, views());
+}
+
+const WindowModule& window_module() {
+  static const auto& module = *static_cast<const WindowModule*>(
+      from_module("heft-window.so", "heft_window", "finds displays and shows windows"));
+  return module;
 }
 
 }  // namespace heft

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "window/Displays.h"
 #include "window/GlWindow.h"
 #include "window/Painter.h"
 

@@ -1,5 +1,3 @@
-#include "window/Displays.h"
-
 #include <SDL_opengl.h>
 #include <fmt/format.h>
 

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "base/Error.h"
-#include "window/Displays.h"
+#include "window/Painter.h"
 
 namespace heft {
 

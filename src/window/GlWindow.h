@@ -1,5 +1,6 @@
 // The window on the display: SDL's window with an OpenGL context, one texture for the scene's
-// frame, and Dear ImGui's draw list. WindowView decides what is painted and what events mean.
+// frame, and Dear ImGui's draw list. WindowView decides what is painted and what events mean. Also
+// the functions of WindowModule.
 #pragma once
 
 #include <SDL.h>
@@ -8,12 +9,14 @@
 
 #include "base/Image.h"
 #include "experiment/Stage.h"
+#include "view/Window.h"
 #include "view/screens/Page.h"
-#include "window/WrittenTextures.h"
 
 struct ImDrawList;
 
 namespace heft {
+
+class WrittenTextures;
 
 /// Number of touch devices.
 int touch_devices();
@@ -65,5 +68,13 @@ class GlWindow {
   std::unique_ptr<Graphics> graphics_;
   Image last_frame_;  ///< uploaded again if the graphics context was lost
 };
+
+// Functions of WindowModule: displays, measuring one with a bank card (CardWindow.cpp), and the time from a
+// touch to its answer (TouchDelay.cpp).
+std::vector<DisplayFacts> displays();
+std::vector<CheckResult> check_displays(const ScreenTexts& texts);
+std::optional<MeasuredCard> measure_card(int display, const std::string& how);
+std::vector<double> touch_delays_s(const ScreenTexts& texts, const std::function<void()>& keep,
+                                   int n_taps);
 
 }  // namespace heft

@@ -4,14 +4,14 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "view/scene/SceneDrawing.h"
-#include "view/text/Places.h"
+#include "view/text/TextFit.h"
 #include "view/text/Typeface.h"
-#include "window/WrittenTextures.h"
 
 struct ImDrawList;
 
@@ -29,6 +29,30 @@ struct PaintedScene {
 struct PlacedMark {
   CubeMark mark;
   float x = 0, y = 0;
+};
+
+/// A line of text as a texture; the place of its ink is relative to the line's left end at its top.
+struct WrittenTexture {
+  unsigned texture = 0;  ///< white; its opacity is the ink
+  int left = 0, top = 0, width = 0, height = 0;
+  bool used = true;  ///< in this frame
+};
+
+/// Textures of an OpenGL context, which must be current whenever this is used or destroyed. They are made
+/// when first drawn, and deleted after a frame without them.
+class WrittenTextures {
+ public:
+  WrittenTextures() = default;
+  ~WrittenTextures();
+  WrittenTextures(const WrittenTextures&) = delete;
+  WrittenTextures& operator=(const WrittenTextures&) = delete;
+
+  const WrittenTexture& of(const WrittenLine& line, const Typeface& typeface);
+  /// Deletes textures that the frame did not use.
+  void end_frame();
+
+ private:
+  std::map<WrittenLine, WrittenTexture> textures_;
 };
 
 /// What a page is painted with.

@@ -4,7 +4,7 @@
 
 #include "base/Clock.h"
 #include "base/Random.h"
-#include "window/Displays.h"
+#include "window/GlWindow.h"
 #include "window/WindowView.h"
 
 namespace heft {

@@ -1,6 +1,6 @@
 // heft-window.so, loaded by view/Window.h.
 #include "view/Window.h"
-#include "window/Displays.h"
+#include "window/GlWindow.h"
 #include "window/WindowView.h"
 
 extern "C" __attribute__((visibility("default"))) const heft::WindowModule heft_window{

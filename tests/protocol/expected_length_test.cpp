@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "EditedFile.h"
-#include "protocol/study/ExpectedLength.h"
+#include "protocol/Protocol.h"
 #include "psychophysics/ProcedureKinds.h"
 #include "tasks/Tasks.h"
 

@@ -1,11 +1,10 @@
 // What models say to questionnaires: something that each question takes, and the same each time.
-#include "responders/decision/Questions.h"
-
 #include <gmock/gmock.h>
 
 #include <set>
 
 #include "responders/Responder.h"
+#include "responders/decision/Decision.h"
 
 namespace heft {
 namespace {

@@ -12,7 +12,6 @@
 #include "EveryScreen.h"
 #include "base/Error.h"
 #include "tasks/Task.h"
-#include "view/text/Places.h"
 #include "view/text/TextFit.h"
 
 namespace heft {

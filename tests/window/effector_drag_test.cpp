@@ -5,7 +5,7 @@
 
 #include "base/PoseTypes.h"
 #include "view/EveryScreen.h"
-#include "window/EffectorDrag.h"
+#include "window/WindowView.h"
 
 namespace heft {
 namespace {

@@ -1,10 +1,9 @@
-#include "analysis/report/FitReport.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "analysis/report/Report.h"
 #include "analysis/report/Table.h"
 
 namespace heft {

@@ -2,10 +2,13 @@
 // screen.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "analysis/dataset/Summary.h"
+#include "inference/Fit.h"
 
 namespace heft {
 
@@ -47,5 +50,18 @@ std::vector<std::string> attention_sentences(const Summary& summary);
 
 /// UTF-8, indented by two spaces, ending in a newline. Percentages are 0...100.
 std::string as_json(const Summary& summary);
+
+struct NamedFit {
+  std::optional<std::string> group;
+  Fit fit;
+};
+
+/// A table a group, and why there is no threshold where there is none.
+std::string fits_as_text(std::span<const NamedFit> fits);
+
+/// A list of objects: group, parameters (value, se, low, high, fixed; null for what does not
+/// exist), log_likelihood, n_trials, identifiable, why (null where identifiable); indecision has
+/// threshold_75_g beside the parameters too.
+std::string fits_as_json(std::span<const NamedFit> fits);
 
 }  // namespace heft

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/report/FitReport.h"
+#include "analysis/report/Report.h"
 #include "base/files/TextFile.h"
 #include "cli/Commands.h"
 #include "cli/console/Terminal.h"

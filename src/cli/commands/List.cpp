@@ -8,7 +8,7 @@
 #include "base/files/Printable.h"
 #include "cli/Commands.h"
 #include "cli/console/Terminal.h"
-#include "cli/reports/SessionFacts.h"
+#include "cli/reports/Reports.h"
 #include "session/Session.h"
 
 namespace heft::cli {

@@ -7,10 +7,22 @@
 #include <string>
 #include <vector>
 
-#include "cli/commands/AnswerLine.h"
 #include "psychophysics/Interleaving.h"
+#include "psychophysics/ProcedureTypes.h"
 
 namespace heft::cli {
+
+/// One line of input: the answer to a trial, or a void trial.
+struct AnswerLine {
+  bool is_void = false;
+  Response response;            ///< unless void
+  std::optional<double> level;  ///< presented, if it differs from the trial's
+};
+
+/// Reads {"response":true|false} or {"answer":"comparison"|"reference"|"none"}, with or without
+/// "level":X, or {"void":true}.
+/// @throws Error naming what was expected
+AnswerLine parse_answer(const std::string& line);
 
 class ProcedureDialog {
  public:

@@ -13,7 +13,7 @@
 #include "cli/Commands.h"
 #include "cli/SessionOptions.h"
 #include "cli/console/Terminal.h"
-#include "cli/reports/OfflineResponderReport.h"
+#include "cli/reports/Reports.h"
 #include "experiment/ScreenTexts.h"
 #include "physics/DecouplingSimulator.h"
 #include "physics/auto/Choice.h"

@@ -14,7 +14,7 @@
 #include "base/files/Printable.h"
 #include "cli/Commands.h"
 #include "cli/console/Terminal.h"
-#include "cli/reports/SessionFacts.h"
+#include "cli/reports/Reports.h"
 #include "record/schema/EventRow.h"
 #include "session/Session.h"
 

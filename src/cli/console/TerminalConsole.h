@@ -6,7 +6,7 @@
 #include <deque>
 #include <string>
 
-#include "cli/console/RawTerminal.h"
+#include "cli/console/Terminal.h"
 #include "session/Console.h"
 
 namespace heft::cli {

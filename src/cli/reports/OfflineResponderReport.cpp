@@ -1,4 +1,4 @@
-#include "cli/reports/OfflineResponderReport.h"
+#include "cli/reports/Reports.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cli/reports/SessionFacts.h"
+#include "cli/reports/Reports.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "base/Error.h"
 #include "base/files/Printable.h"
 #include "cli/console/Terminal.h"
-#include "protocol/study/ExpectedLength.h"
+#include "protocol/Protocol.h"
 
 namespace heft::cli {
 

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/Random.h"
+#include "experiment/ScreenTexts.h"
 #include "responders/Responder.h"
 #include "responders/ResponderParameters.h"
 
@@ -32,5 +35,11 @@ class Decision {
 
 /// The answer of a model that does not look, for a trial of any task.
 Answer blind_answer(const TrialView& trial, const WithoutPercepts& unseen, RandomStream& stream);
+
+/// Each answer equally likely; whole numbers of a number's range. None for questions that are
+/// answered to the experimenter.
+/// @param seed the responder's  @param key in the log: every question has its own draws
+std::optional<std::string> any_answer_to(const FormQuestion& question, std::uint64_t seed,
+                                         const std::string& key);
 
 }  // namespace heft

@@ -58,4 +58,8 @@ class Sensor {
   std::vector<int> places_;  ///< of a row's light in the curve
 };
 
+/// @param picture with three channels
+/// @throws Error if the codecs' module is missing
+Image processed(Image picture, const Optics& optics);
+
 }  // namespace heft

@@ -1,0 +1,76 @@
+// Texts and JSON of several commands: summaries of sessions, a responder's answers to a log, checks of
+// the participant's texts.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apparatus/StudyPlaces.h"
+#include "base/Error.h"
+#include "experiment/ScreenTexts.h"
+#include "record/reader/LogReader.h"
+#include "replay/OfflineResponder.h"
+
+namespace heft {
+struct Protocol;
+}
+
+namespace heft::cli {
+
+// Sessions, for heft list and heft show. Blind: no mass, level or correctness.
+
+struct SessionFacts {
+  SessionRow row;
+  int n_completed = 0, n_void = 0;       ///< attempts
+  std::optional<double> planned_trials;  ///< approximately; none: the protocol cannot be read
+  double duration_s = 0;                 ///< session time
+  std::optional<LoggedPlace> place;      ///< in a study
+};
+
+SessionFacts facts_of(const LogReader& reader, const SessionRow& row);
+
+/// "31 of about 70", "68"
+std::string trials_text(const SessionFacts& facts);
+
+nlohmann::ordered_json as_json(const SessionFacts& facts);
+
+/// Possible next steps with a log of these sessions: one line each, with commands to copy.
+std::vector<std::string> next_steps(const std::vector<SessionFacts>& sessions,
+                                    const std::string& db);
+
+// A responder's answers to a log compared with the logged ones, for heft replay.
+
+struct AnsweredSession {
+  std::int64_t session_id = 0;
+  std::string participant, responder;
+  OfflineAnswers judgments;
+  double took_s = 0;  ///< wall time of the judging
+};
+
+void print_offline_responder(const AnsweredSession& session);
+
+/// Intervals of agreement: exact (Clopper and Pearson), 95 %. Of d' and criterion: 1.96 standard
+/// errors. Missing values are null.
+std::string as_json(const std::vector<AnsweredSession>& sessions);
+
+// Checks of the participant's texts, for heft validate.
+
+struct WordFaults {
+  std::vector<std::string> cautions;  ///< texts that are hard to read on the smallest screen
+  std::vector<Mistake> mistakes;      ///< characters that no installed font has
+};
+
+/// Of a text file alone, at normal and at large text size.
+WordFaults faults_in_words(const ScreenTexts& texts, const std::string& file);
+
+/// Of all texts in a participant's session: the protocol's texts and questionnaires at the
+/// protocol's text size. Each caution begins with its file. The program's own texts are assumed to
+/// be valid, unless questionnaires or larger letters are used.
+/// @throws Error as add_questionnaires(); InvalidFile if a file has mistakes
+WordFaults faults_in_words(const Protocol& protocol, const std::string& protocol_file,
+                           const std::string& language);
+
+}  // namespace heft::cli
