@@ -69,8 +69,8 @@ class GlWindow {
   Image last_frame_;  ///< uploaded again if the graphics context was lost
 };
 
-// Functions of WindowModule: displays, measuring one with a bank card (CardWindow.cpp), and the time from a
-// touch to its answer (TouchDelay.cpp).
+// Functions of WindowModule: displays, measuring one with a bank card (CardWindow.cpp), and the
+// time from a touch to its answer (TouchDelay.cpp).
 std::vector<DisplayFacts> displays();
 std::vector<CheckResult> check_displays(const ScreenTexts& texts);
 std::optional<MeasuredCard> measure_card(int display, const std::string& how);

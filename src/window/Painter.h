@@ -38,8 +38,8 @@ struct WrittenTexture {
   bool used = true;  ///< in this frame
 };
 
-/// Textures of an OpenGL context, which must be current whenever this is used or destroyed. They are made
-/// when first drawn, and deleted after a frame without them.
+/// Textures of an OpenGL context, which must be current whenever this is used or destroyed. They
+/// are made when first drawn, and deleted after a frame without them.
 class WrittenTextures {
  public:
   WrittenTextures() = default;

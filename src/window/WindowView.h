@@ -23,8 +23,8 @@
 
 namespace heft {
 
-/// The dragged effector: taken by a finger or the mouse, moved over the table at constant height, and turned.
-/// The pointer's position is where its ray meets that height.
+/// The dragged effector: taken by a finger or the mouse, moved over the table at constant height,
+/// and turned. The pointer's position is where its ray meets that height.
 class EffectorDrag {
  public:
   /// @param setup with the effector

@@ -149,6 +149,10 @@ class Parsed(SessionTest):
                 self.assertRegex(text_of(".install/Install.cmake"), rf"heft_install\({value}\b")
 
 
+# A block of code, which a sentence before it may save as a file or append to one.
+STEP = re.compile(r"(?:(save|append) this (?:as|to) `([^`]+)`:\n\n)?^ *```(\w*)\n(.*?)^ *```", re.S | re.M | re.I)
+
+
 class Commands(Parsed):
     def follow(self, name):
         shutil.copytree(PROTOCOLS, self.folder / "protocols")
@@ -157,9 +161,10 @@ class Commands(Parsed):
         self.run_heft("simulate", PROTOCOLS / "paper.toml", "--participants", "2", "--seed", "1", "--db",
                       self.folder / "lab.db")
         text = text_of(name)
-        for file, content in re.findall(r"[Ss]ave this as `([^`]+)`:\n\n```\w*\n(.*?)```", text, re.S):
-            (self.folder / file).write_text(content, encoding="utf-8")
-        for language, block in blocks(text):
+        for verb, file, language, block in STEP.findall(text):
+            if file:
+                with open(self.folder / file, "w" if verb.lower() == "save" else "a", encoding="utf-8") as out:
+                    out.write(block)
             for line in lines_of(block) if language == "sh" else []:
                 with self.subTest(line=line):
                     self.parse(line) if reason_not_to_run(line) else self.run_line(line)

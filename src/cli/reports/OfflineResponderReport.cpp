@@ -1,11 +1,10 @@
-#include "cli/reports/Reports.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/console/Terminal.h"
+#include "cli/reports/Reports.h"
 #include "inference/Statistics.h"
 #include "tasks/Task.h"
 

@@ -1,5 +1,5 @@
-// Texts and JSON of several commands: summaries of sessions, a responder's answers to a log, checks of
-// the participant's texts.
+// Texts and JSON of several commands: summaries of sessions, a responder's answers to a log, checks
+// of the participant's texts.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,3 @@
-#include "cli/reports/Reports.h"
-
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -7,6 +5,7 @@
 #include "base/Error.h"
 #include "base/files/Printable.h"
 #include "cli/console/Terminal.h"
+#include "cli/reports/Reports.h"
 #include "protocol/Protocol.h"
 
 namespace heft::cli {

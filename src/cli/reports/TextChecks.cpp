@@ -1,5 +1,3 @@
-#include "cli/reports/Reports.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include "base/files/Printable.h"
 #include "base/files/TextFile.h"
 #include "cli/SessionOptions.h"
+#include "cli/reports/Reports.h"
 #include "protocol/Protocol.h"
 #include "protocol/readers/Files.h"
 #include "view/text/TextFit.h"
