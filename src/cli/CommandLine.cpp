@@ -46,12 +46,12 @@ std::string nearest_hint(const std::string& wanted, const std::vector<std::strin
 // CLI11's own message would only be that a subcommand is required.
 // @param name as typed, with the commands before it
 void refuse_unknown_command(const CLI::App& app, const std::string& name,
-                            std::span<char* const> words) {
+                            std::span<const std::string> words) {
   std::vector<std::string> names;
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
   for (const CLI::App* command : commands) names.push_back(command->get_name());
-  if (words.empty() || names.empty() || *words.front() == '-') return;
-  const std::string word = words.front();
+  if (words.empty() || names.empty() || words.front().starts_with('-')) return;
+  const std::string& word = words.front();
   const auto found = std::ranges::find(names, word);
   if (found != names.end())
     return refuse_unknown_command(*commands[static_cast<std::size_t>(found - names.begin())],
@@ -105,6 +105,8 @@ OptionDescription described(const CLI::Option& option) {
   description.names = option.get_name(false, true);
   description.value = value_of(option);
   description.group = description.by_place ? "Arguments" : option.get_group();
+  description.is_general = description.names == "-h,--help" || description.names == "--help-all" ||
+                           description.names == "--version";
   description.required = option.get_required();
   description.repeats = option.get_items_expected_max() > 1;
   description.help = option.get_description();
@@ -122,7 +124,7 @@ CommandDescription described(const CLI::App& app, const std::string& before) {
     description.options.push_back(described(*option));
   // Required options first, options of all commands last.
   std::ranges::stable_sort(description.options, {}, [](const OptionDescription& option) {
-    return option.by_place ? 0 : option.names.starts_with("-h,") ? 2 : 1;
+    return option.by_place ? 0 : option.is_general ? 2 : 1;
   });
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     description.commands.push_back(described(*command, description.name + " "));
@@ -145,10 +147,10 @@ std::size_t help_width() {
 }
 
 void add_completion(Command& program, const CLI::App& app) {
-  Command command = program.add_command(
-      "completion", "print a shell's completion of commands and options, or the manual page",
-      {"source <(heft completion bash)", "source <(heft completion zsh)",
-       "heft completion fish | source", "heft completion man > heft.1"});
+  Command command =
+      program.add_command("completion", "print completion for a shell, or the manual page",
+                          {"source <(heft completion bash)", "source <(heft completion zsh)",
+                           "heft completion fish | source", "heft completion man > heft.1"});
   const std::map<std::string, std::string (*)(const CommandDescription&)> makers{
       {"bash", bash_completion},
       {"zsh", zsh_completion},
@@ -203,7 +205,8 @@ Command Command::add_command(const std::string& name, const std::string& summary
                              const std::vector<std::string>& examples) {
   CLI::App& command = *app_.add_subcommand(name, summary);
   std::string footer = examples.empty() ? "" : "Examples:";
-  for (const std::string& example : examples) footer += fmt::format("\n  {}", example);
+  for (const std::string& example : examples)
+    footer += example.empty() ? "\n" : fmt::format("\n  {}", example);
   command.footer(footer);
   return Command(command);
 }
@@ -241,7 +244,7 @@ void Command::add_sessions(std::vector<std::int64_t>& sessions, const std::strin
 }
 
 void Command::add_seed(std::optional<std::uint64_t>& seed, const std::string& without_it) {
-  add_option("--seed", &seed, "0...2^63-1; without it " + without_it)
+  add_option("--seed", &seed, fmt::format("0...2^63-1 (default: {})", without_it))
       .whole_number(0, (std::uint64_t{1} << 63) - 1);
 }
 
@@ -261,22 +264,30 @@ void run_command_line(const ProgramDescription& program, int argc, char** argv) 
   CLI::App app{program.purpose};
   app.name(program.name);
   app.set_help_flag("-h,--help", "print this help");
+  app.set_help_all_flag("--help-all", "print the help on every option");
   app.set_version_flag("--version", program.name + " " + HEFT_VERSION, "print the version");
   app.require_subcommand(1);
   app.footer(program.footer);
   Command all(app);
   program.add_commands(all);
   add_completion(all, app);
-  if (argc > 1)
-    refuse_unknown_command(app, app.get_name(), {argv + 1, static_cast<std::size_t>(argc - 1)});
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (!words.empty() && words.front() == "help") {  // "help COMMAND" is "COMMAND --help"
+    std::ranges::rotate(words, words.begin() + 1);
+    words.back() = "--help";
+  }
+  refuse_unknown_command(app, app.get_name(), words);
+  std::ranges::reverse(words);  // as CLI11 expects
   try {
-    app.parse(argc, argv);
+    app.parse(words);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) throw usage_error(app, error);
     if (dynamic_cast<const CLI::CallForVersion*>(&error))
       fmt::print("{} {}\n", program.name, HEFT_VERSION);
-    else
+    else if (dynamic_cast<const CLI::CallForAllHelp*>(&error))
       fmt::print("{}", help_of(described_as_given(app), help_width()));
+    else
+      fmt::print("{}", first_help_of(described_as_given(app), help_width()));
   }
 }
 

@@ -68,7 +68,7 @@ class Command {
   /// Adds --seed.
   /// @param without_it its default, for --help
   void add_seed(std::optional<std::uint64_t>& seed,
-                const std::string& without_it = "a new one is drawn, printed and logged");
+                const std::string& without_it = "drawn, printed and logged");
 
   /// Appends text to --help.
   void add_to_help(const std::string& text);

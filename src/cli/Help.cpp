@@ -8,7 +8,8 @@
 namespace heft::cli {
 
 namespace {
-constexpr std::size_t help_column = 28;
+constexpr std::size_t help_column = 28, command_column = 14;
+constexpr std::ptrdiff_t screen_lines = 24;
 
 // Words wrapped to lines from a column on; the first line already has `used` characters.
 std::string wrapped(const std::string& text, std::size_t column, std::size_t width,
@@ -48,12 +49,16 @@ std::string continued(std::string_view example, std::size_t width) {
   return result;
 }
 
-// The text below the options, with commands wrapped to the terminal's width.
+// The text below the options, with commands and sentences wrapped to the terminal's width.
 std::string with_examples(const std::string& footer, std::size_t width) {
   std::istringstream lines(footer);
   std::string result;
-  for (std::string line; std::getline(lines, line);)
-    result += (line.starts_with("  heft ") ? continued(line, width) : line) + '\n';
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_prose = !line.starts_with("   ") && line.size() > width;
+    result += line.starts_with("  heft ") ? continued(line, width) + '\n'
+              : is_prose                  ? wrapped(line, 2, width, 0)
+                                          : line + '\n';
+  }
   return result;
 }
 
@@ -63,10 +68,10 @@ std::string left_of(const OptionDescription& option) {
   return left + (option.repeats ? " ..." : "");
 }
 
-std::string line_of(const std::string& left, const std::string& help, std::size_t width) {
-  const bool too_long = left.size() + 2 > help_column;
-  return left + (too_long ? "\n" : "") +
-         wrapped(help, help_column, width, too_long ? 0 : left.size());
+std::string line_of(const std::string& left, const std::string& help, std::size_t width,
+                    std::size_t column = help_column) {
+  const bool too_long = left.size() + 2 > column;
+  return left + (too_long ? "\n" : "") + wrapped(help, column, width, too_long ? 0 : left.size());
 }
 
 // Each group once, in the order of its first option.
@@ -80,35 +85,82 @@ std::vector<std::string> groups_of(const CommandDescription& command) {
 std::string usage_of(const CommandDescription& command) {
   std::string usage = command.name + " [OPTIONS]";
   for (const OptionDescription& option : command.options)
-    if (option.by_place) usage += " " + option.names + (option.repeats ? "..." : "");
-  return usage + (command.commands.empty() ? "" : " COMMAND");
+    if (option.by_place) usage += fmt::format(" {}{}", option.names, option.repeats ? "..." : "");
+  if (!command.commands.empty()) usage += " COMMAND";
+  return usage;
 }
 
 std::string last_word(const std::string& name) {
   return name.substr(name.rfind(' ') + 1);
 }
 
-// Long names of options, or names of commands, separated by blanks.
+std::string long_name(const OptionDescription& option) {
+  return option.names.substr(option.names.rfind(',') + 1);
+}
+
+// Names separated by blanks.
 std::string options_in_a_row(const CommandDescription& command) {
-  std::string row;
+  std::vector<std::string> names;
   for (const OptionDescription& option : command.options)
-    if (!option.by_place)
-      row += (row.empty() ? "" : " ") + option.names.substr(option.names.rfind(',') + 1);
-  return row;
+    if (!option.by_place) names.push_back(long_name(option));
+  return fmt::format("{}", fmt::join(names, " "));
 }
 
 std::string commands_in_a_row(const CommandDescription& command) {
-  std::string row;
+  std::vector<std::string> names;
+  for (const CommandDescription& inner : command.commands) names.push_back(last_word(inner.name));
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+std::string commands_of(const CommandDescription& command, std::size_t width) {
+  std::string text = "Commands:\n";
   for (const CommandDescription& inner : command.commands)
-    row += (row.empty() ? "" : " ") + last_word(inner.name);
-  return row;
+    text += line_of("  " + last_word(inner.name), inner.summary, width, command_column);
+  return text;
+}
+
+// The first three commands of the examples, without explanations.
+std::string first_examples(const CommandDescription& command, std::size_t width) {
+  std::istringstream lines(command.footer);
+  std::string result;
+  int n_commands = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line != "Examples:" && !line.starts_with("  ")) break;
+    n_commands += line.starts_with("  heft ");
+    if (n_commands > 3) break;
+    result += line + '\n';
+  }
+  return with_examples(result, width);
+}
+
+// Arguments and the first options, names of the others, and examples.
+std::string short_help_of(const CommandDescription& command, std::size_t width) {
+  const std::string summary = wrapped(command.summary, 0, width, 0);
+  if (!command.commands.empty())
+    return fmt::format("{}{}\n{}", summary, command.footer, commands_of(command, width));
+  std::string options;
+  std::vector<std::string> others;
+  for (const OptionDescription& option : command.options) {
+    if (option.is_general) continue;
+    const std::string line = line_of(left_of(option), option.help, width);
+    const bool has_room = std::ranges::count(options + line, '\n') <= 10;
+    if (others.empty() && (option.by_place || option.group == "Options") && has_room)
+      options += line;
+    else
+      others.push_back(long_name(option));
+  }
+  return fmt::format(
+      "{}\nUsage: {}\n\n{}\nMore: {} --help-all\n{}\n{}", summary, usage_of(command), options,
+      command.name,
+      others.empty() ? "" : wrapped(fmt::format("{}", fmt::join(others, " ")), 2, width, 0),
+      first_examples(command, width));
 }
 
 void add_cases(const CommandDescription& command, const std::string& path, std::string& text) {
   text += fmt::format("    \"{}\") commands=\"{}\" options=\"{}\" ;;\n", path,
                       commands_in_a_row(command), options_in_a_row(command));
   for (const CommandDescription& inner : command.commands)
-    add_cases(inner, path + "/" + last_word(inner.name), text);
+    add_cases(inner, fmt::format("{}/{}", path, last_word(inner.name)), text);
 }
 
 // Escapes for roff: no line starts with a request, no hyphen becomes a dash.
@@ -136,17 +188,21 @@ void add_section(const CommandDescription& command, std::string& page) {
 }  // namespace
 
 std::string help_of(const CommandDescription& command, std::size_t width) {
-  std::string text = wrapped(command.summary, 0, width, 0);
-  text += "\nUsage: " + usage_of(command) + "\n";
+  std::string text =
+      fmt::format("{}\nUsage: {}\n", wrapped(command.summary, 0, width, 0), usage_of(command));
   for (const std::string& group : groups_of(command)) {
     text += fmt::format("\n{}:\n", group);
     for (const OptionDescription& option : command.options)
       if (option.group == group) text += line_of(left_of(option), option.help, width);
   }
-  if (!command.commands.empty()) text += "\nCommands:\n";
-  for (const CommandDescription& inner : command.commands)
-    text += line_of("  " + last_word(inner.name), inner.summary, width);
-  return text + (command.footer.empty() ? "" : "\n" + with_examples(command.footer, width));
+  if (!command.commands.empty()) text += '\n' + commands_of(command, width);
+  if (!command.footer.empty()) text += '\n' + with_examples(command.footer, width);
+  return text;
+}
+
+std::string first_help_of(const CommandDescription& command, std::size_t width) {
+  const std::string all = help_of(command, width);
+  return std::ranges::count(all, '\n') < screen_lines ? all : short_help_of(command, width);
 }
 
 std::string bash_completion(const CommandDescription& program) {
@@ -227,13 +283,11 @@ void add_fish_lines(const CommandDescription& command, const std::string& progra
     lines += fmt::format("{} -l {}{} -d {}\n", begin, option.names.substr(dashes + 2),
                          option.value.empty() ? "" : " -r", fish_quoted(option.help));
   }
-  std::string inner_names;
-  for (const CommandDescription& inner : command.commands)
-    inner_names += " " + last_word(inner.name);
   for (const CommandDescription& inner : command.commands) {
     const std::string name = last_word(inner.name);
     lines += fmt::format("complete -c {} -n {} -f -a {} -d {}\n", program,
-                         fish_quoted(seen + "; and not __fish_seen_subcommand_from" + inner_names),
+                         fish_quoted(fmt::format("{}; and not __fish_seen_subcommand_from {}", seen,
+                                                 commands_in_a_row(command))),
                          name, fish_quoted(inner.summary));
     add_fish_lines(inner, program, seen + "; and __fish_seen_subcommand_from " + name, lines);
   }

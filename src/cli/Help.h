@@ -13,6 +13,7 @@ struct OptionDescription {
   std::string group;  ///< heading in --help
   std::string help;   ///< line ends are kept
   bool by_place = false, required = false, repeats = false;
+  bool is_general = false;  ///< --help, --help-all, --version
 };
 
 struct CommandDescription {
@@ -22,8 +23,12 @@ struct CommandDescription {
   std::vector<CommandDescription> commands;
 };
 
+/// Everything about a command: --help-all.
 /// @param width in characters; words and quoted texts are not broken
 std::string help_of(const CommandDescription& command, std::size_t width);
+
+/// The same if it fits one terminal screen, else its most important part: --help.
+std::string first_help_of(const CommandDescription& command, std::size_t width);
 
 /// Scripts for a shell to source: commands and options; files elsewhere.
 std::string bash_completion(const CommandDescription& program);

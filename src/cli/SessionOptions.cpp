@@ -182,7 +182,7 @@ std::vector<std::string> cautions(const Protocol& protocol) {
                     "clone is seen beside the filmed effector, it adds apparent mass: use \"path\"",
                     name_of(mode)));
   if (protocol.layout.out_of_area == OutOfArea::give_back)
-    found.push_back(
+    found.emplace_back(
         "[layout] out_of_area = \"return\", the default, reveals the mass: light "
         "cubes jump back in most trials, heavy ones hardly ever: use \"together\"");
   if (predict_s > 0) {

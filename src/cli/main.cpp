@@ -13,6 +13,6 @@ void add_all(heft::cli::Command& app) {
 int main(int argc, char** argv) {
   return heft::cli::run_program(
       {"heft", "Heft runs psychophysics experiments on perceived mass in augmented reality.",
-       "Start with: heft demo. Help on a command: heft COMMAND --help", add_all},
+       "Start with: heft demo. Help on a command: heft help COMMAND", add_all},
       argc, argv);
 }

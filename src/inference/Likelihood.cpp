@@ -96,7 +96,7 @@ Maximum Likelihood::climb(Parameters from, Eigen::Index held) {
 
 // Sequential quadratic programming (Kraft 1994). It may stop for lack of digits, even at no number:
 // what counts is the best that it tried.
-Maximum Likelihood::climb_by_nlopt(Maximum from, Eigen::Index held) {
+Maximum Likelihood::climb_by_nlopt(const Maximum& from, Eigen::Index held) {
   at_ = from.at;
   best_ = from;
   free_ = free(held);

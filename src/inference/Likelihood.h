@@ -57,7 +57,7 @@ class Likelihood {
  private:
   /// @return whether it got there
   bool climb_by_newton(Maximum& from, Eigen::Index held);
-  Maximum climb_by_nlopt(Maximum from, Eigen::Index held);
+  Maximum climb_by_nlopt(const Maximum& from, Eigen::Index held);
   Parameters step_against(const Parameters& slope, const Parameters& at, Eigen::Index held) const;
   bool can_climb_along(Eigen::Index i, const Parameters& at) const;
   Parameters within_bounds(Parameters at) const;

@@ -6,6 +6,7 @@ import contextlib
 import json
 import os
 import pty
+import re
 import shutil
 import signal
 import subprocess
@@ -157,17 +158,43 @@ class Output(CommandLine):
     def test_help_reads_the_same_everywhere(self):
         for command, positional in (("run", "PROTOCOL"), ("validate", "FILE"), ("procedure", "FILE"),
                                     ("scene", "SCENE.toml"), ("simulate", "PROTOCOL")):
-            said = self.run_heft(command, "--help").stdout
-            self.assertIn(f"\n  {positional} ", said)
-            self.assertIn("print this help", said)
+            for option in ("--help", "--help-all"):
+                self.assertIn(f"\n  {positional} ", self.run_heft(command, option).stdout)
+            self.assertIn("print this help", self.run_heft(command, "--help-all").stdout)
+
+    def every_command(self):
+        listed = re.findall(r"^  ([a-z]+)  ", self.run_heft("help").stdout, re.M)
+        self.assertGreater(len(listed), 15)
+        return [[]] + [[name] for name in listed] + [["calibrate", "camera"], ["sheet", "board"]]
+
+    def test_help_fits_one_terminal_screen(self):
+        for words in self.every_command():
+            with self.subTest(words=words):
+                lines = self.run_heft(*words, "--help").stdout.splitlines()
+                self.assertLessEqual(len(lines), 24)
+                self.assertLessEqual(max(map(len, lines)), 80)
+
+    def test_help_is_a_command_too(self):
+        for words in self.every_command():
+            self.assertEqual(self.run_heft("help", *words).stdout,
+                             self.run_heft(*words, "--help").stdout)
+        self.assertIn("did you mean analyse?", self.says(2, "help", "analyze"))
+
+    def test_short_help_names_every_option(self):
+        option = re.compile(r"--[a-z][a-z-]+")
+        for words in self.every_command()[1:]:
+            short = option.findall(self.run_heft(*words, "--help").stdout)
+            for name in re.findall(r"^  (?:-h,)?(--[a-z-]+)", self.run_heft(*words, "--help-all").stdout, re.M):
+                if name != "--help":
+                    self.assertIn(name, short, words)
 
     def test_help_is_wrapped_to_the_terminal_and_ends_with_examples(self):
         for command in ("run", "resume", "simulate", "replay", "doctor"):
-            at_80 = self.run_heft(command, "--help").stdout.split("Examples:")
+            at_80 = self.run_heft(command, "--help-all").stdout.split("Examples:")
             self.assertEqual(len(at_80), 2, command)
             terminal, end = pty.openpty()
             termios.tcsetwinsize(end, (24, 70))
-            program = subprocess.Popen([self.heft, command, "--help"], stdout=end)
+            program = subprocess.Popen([self.heft, command, "--help-all"], stdout=end)
             os.close(end)
             said = b""
             with contextlib.suppress(OSError):  # the terminal has gone with its program
@@ -183,16 +210,16 @@ class Output(CommandLine):
             one_line = [part.replace(" \\\n     ", "") for part in (narrow[1], at_80[1])]
             self.assertEqual(one_line[0], one_line[1])
 
-    def test_help_tells_defaults_where_they_are(self):
-        words = {command: " ".join(self.run_heft(command, "--help").stdout.split())
+    def test_help_shows_defaults(self):
+        words = {command: " ".join(self.run_heft(command, "--help-all").stdout.split())
                  for command in ("run", "resume")}
         for default in ("(default: human)", "(default: camera:0 for a person, hand for a model)",
                         "(default: protocols/apparatus/board.toml)"):
             self.assertIn(default, words["run"])
             self.assertNotIn(default, words["resume"])
-        self.assertIn("the rest stays as it was", words["resume"])
+        self.assertIn("the rest is kept", words["resume"])
         self.assertIn("--purpose main|pilot|test", words["run"])
-        self.assertIn("(default: main)", words["run"])
+        self.assertIn("(default: main, but test with --tracker mouse)", words["run"])
 
     def completed(self, *words):
         script = self.run_heft("completion", "bash").stdout

@@ -188,7 +188,7 @@ class StockSimulators(Files):
         self.assertNotIn("nan", run.stdout)
 
     def test_help_lists_known_failures(self):
-        run = subprocess.run([HEFT, "scene", "--help"], capture_output=True, text=True)
+        run = subprocess.run([HEFT, "scene", "--help-all"], capture_output=True, text=True)
         words = " ".join(run.stdout.split())
         self.assertIn("bullet-spring2 lowers the stiffness without warning", words)
 

@@ -126,7 +126,7 @@ class Track(unittest.TestCase):
             self.assertIn("1 of 3 picture(s)", run.stderr)
 
     def test_help_says_whose_the_columns_are(self):
-        run = subprocess.run([HEFT, "track", "--help"], capture_output=True, text=True, timeout=60)
+        run = subprocess.run([HEFT, "track", "--help-all"], capture_output=True, text=True, timeout=60)
         for word in ("n_tags, reprojection_px and quality are the effector's", "unfiltered"):
             self.assertIn(word, run.stdout)
 

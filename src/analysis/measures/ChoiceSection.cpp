@@ -83,7 +83,7 @@ void add_rate(std::vector<EstimateColumn>& columns, const Measure& measure, cons
   add(Field::high, "_high_percent", "high", ".high");
 }
 
-std::vector<EstimateColumn> only(std::string_view name, std::string text,
+std::vector<EstimateColumn> only(std::string_view name, const std::string& text,
                                  std::vector<EstimateColumn> columns) {
   for (EstimateColumn& one : columns)
     if (one.measure) one.only = {name, text};

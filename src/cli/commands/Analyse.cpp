@@ -73,7 +73,7 @@ void analyse(AnalyseOptions options) {
 void add_analyse(Command& app) {
   const auto options = std::make_shared<AnalyseOptions>();
   Command command = app.add_command(
-      "analyse", "estimates with intervals, tables, charts and a report of logs",
+      "analyse", "results of logs with intervals, as text, tables, charts, a report",
       {"heft analyse --db heft.db", "heft analyse --db heft.db --out report",
        "heft analyse --db heft.db --session 3 4 --json", "heft analyse --db lab1.db --db lab2.db"});
   command.add_option(

@@ -266,8 +266,8 @@ void add_camera(Command& parent) {
       "camera", "the camera, from views of the board",
       {"heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
        "heft calibrate camera --camera frames:views --board BOARD.toml --out camera.yaml",
-       "heft calibrate camera --shutter --camera camera:0 --camera-file camera.yaml \\\n"
-       "      --board BOARD.toml --out camera.yaml"});
+       "heft calibrate camera --shutter --camera camera:0 --camera-file camera.yaml "
+       "--board BOARD.toml --out camera.yaml"});
   const auto options = std::make_shared<CalibrateOptions>();
   add_source(command, *options);
   command.add_option("--board", &options->board, "board file").required();
@@ -292,8 +292,8 @@ void add_camera(Command& parent) {
 void add_effector(Command& parent) {
   Command command =
       parent.add_command("effector", "measure the effector's tags, from pictures",
-                         {"heft calibrate effector --camera camera:0 --camera-file camera.yaml \\\n"
-                          "      --effector EFFECTOR.toml --out MEASURED.toml"});
+                         {"heft calibrate effector --camera camera:0 --camera-file camera.yaml "
+                          "--effector EFFECTOR.toml --out MEASURED.toml"});
   const auto options = std::make_shared<CalibrateOptions>();
   add_source(command, *options);
   command.add_option("--camera-file", &options->camera_file, "the calibrated camera").required();
@@ -382,10 +382,10 @@ void add_calibrate(Command& app) {
   Command command = app.add_command(
       "calibrate", "measure the camera, the effector's tags, or the display",
       {"heft calibrate camera --camera camera:0 --board BOARD.toml --out camera.yaml",
-       "heft calibrate camera --camera camera:0 --size 1280x720 --board BOARD.toml \\\n"
-       "      --out camera.yaml",
-       "heft calibrate effector --camera camera:0 --camera-file camera.yaml \\\n"
-       "      --effector EFFECTOR.toml --out MEASURED.toml",
+       "heft calibrate camera --camera camera:0 --size 1280x720 --board BOARD.toml "
+       "--out camera.yaml",
+       "heft calibrate effector --camera camera:0 --camera-file camera.yaml "
+       "--effector EFFECTOR.toml --out MEASURED.toml",
        "heft calibrate display"});
   command.needs_command();
   add_camera(command);

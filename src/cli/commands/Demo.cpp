@@ -78,7 +78,7 @@ void add_demo(Command& app) {
       app.add_command("demo", "the paper's session with a simulated participant, and its results",
                       {"heft demo", "heft demo --seed 42 --out trial-run"});
   command.add_option("--out", &options->out, "folder for the log and the report").shows_default();
-  command.add_seed(options->seed, "always the same session; others may last twice as long");
+  command.add_seed(options->seed, "a fixed one; others may last twice as long");
   command.add_flag("--tables", options->tables, "all tables instead of a summary");
   command.does([options] { demo(*options); });
 }

@@ -286,8 +286,7 @@ void add_doctor(Command& app) {
   };
   const auto options = std::make_shared<DoctorOptions>();
   Command command = app.add_command(
-      "doctor",
-      "check this machine and a camera, and list trackers, views, simulators and responders",
+      "doctor", "check this machine and a camera; list trackers, views, responders",
       {"heft doctor", "heft doctor --db lab.db", "heft doctor --tracker camera:0",
        "heft doctor --tracker camera:0 --camera-file camera.yaml --board board.toml",
        "heft doctor --responder simulated"});

@@ -81,17 +81,14 @@ void export_to(const ExportOptions& options) {
 void add_export(Command& app) {
   const auto options = std::make_shared<ExportOptions>();
   Command command = app.add_command(
-      "export", "logs as files for other programs, with a data dictionary",
+      "export", "tables for other programs, with a data dictionary",
       {"heft export --db heft.db --format csv --out data",
        "heft export lab1.db lab2.db --format psych-ds --out dataset",
        "heft export heft.db --format bids --pseudonymise --out shared", "",
        "--pseudonymise replaces participants' ids by names such as p1a2b3c4d5e6f (HMAC-SHA-256 "
-       "with "
-       "the "
-       "key, so that a person has the same one in each export with it), omits typed texts "
-       "(reasons, "
-       "texts that participants wrote) and file names, and keeps only numbers of what participants "
-       "reported, and only the year of dates.",
+       "with the key, so that a person has the same name in each export with it). It omits typed "
+       "texts and file names, keeps only numbers of what participants reported, and only the year "
+       "of dates.",
        "",
        "The key is a line of 64 hexadecimal digits, created if its file is missing. To make your "
        "own:",

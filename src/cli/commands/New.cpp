@@ -284,9 +284,9 @@ void add_experiment(const std::string& name) {
 }  // namespace
 
 void add_new(Command& app) {
-  Command command = app.add_command(
-      "new", "write a commented experiment, or a new entry of the source with a failing test",
-      {"heft new experiment soft_cubes", "heft new task odd_one_out"});
+  Command command =
+      app.add_command("new", "start an experiment, or a task, procedure, technique... of Heft",
+                      {"heft new experiment soft_cubes", "heft new task odd_one_out"});
   command.needs_command();
   const auto add = [&](std::string_view name, std::string_view summary, std::string_view example,
                        const std::function<void(const std::string&)>& write) {

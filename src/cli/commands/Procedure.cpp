@@ -66,7 +66,7 @@ void add_procedure(Command& app) {
       "stays open. It ends, with exit code 0, when all staircases are done or its input ends."};
   for (std::string& line : keys_of_files()) lines.push_back(std::move(line));
   Command command = app.add_command(
-      "procedure", "drive psychophysical procedures over JSON lines on stdin and stdout", lines);
+      "procedure", "adaptive procedures for other programs, over JSON lines", lines);
   const auto file = std::make_shared<std::string>();
   command
       .add_option("FILE", file.get(), "procedure file (TOML): seed, interleave, [[staircase]]...")

@@ -348,8 +348,7 @@ void show(const LogReader& reader, const ReplayOptions& options) {
 void add_replay(Command& app) {
   const auto options = std::make_shared<ReplayOptions>();
   Command command = app.add_command(
-      "replay",
-      "verify a log (exit 5 at a divergence), or recompute a session under other conditions",
+      "replay", "verify a log (exit 5: it differs), or recompute it otherwise",
       {"heft replay --db lab.db", "heft replay --db lab.db --session 3",
        "heft replay --db lab.db --session 3 --simulator bullet-ea",
        "heft replay --db lab.db --set physics.friction=0.64",

@@ -74,11 +74,11 @@ void add_resume(Command& app) {
     bool end = false, unblind = false, go_on = false, keys = false;
   };
   const auto options = std::make_shared<ResumeOptions>();
-  Command command = app.add_command(
-      "resume", "continue an unfinished session; options that are not given again are kept",
-      {"heft resume --db lab.db", "heft resume --db lab.db --session 3",
-       "heft resume --db lab.db --responder scripted:recorded/07-second-half",
-       "heft resume --db lab.db --session 3 --end"});
+  Command command =
+      app.add_command("resume", "continue an unfinished session; missing options keep their values",
+                      {"heft resume --db lab.db", "heft resume --db lab.db --session 3",
+                       "heft resume --db lab.db --responder scripted:recorded/07-second-half",
+                       "heft resume --db lab.db --session 3 --end"});
   command.add_option("--db", &options->db, "the log").shows_default();
   command.add_session(options->session, "the newest unfinished one");
   add_session_options(command, options->again, true);

@@ -291,16 +291,11 @@ void add_run(Command& app) {
        "heft run protocols/paper.toml --participant 07 --backup /media/stick --events "
        "udp:127.0.0.1:5005"});
   command.add_option("PROTOCOL", &options->protocol, "a protocol file (not with --plan)");
-  command.add_option(
-      "--plan", &options->plan,
-      "a study plan, STUDY.toml: the session of the next participant, or of --participant, "
-      "with the plan's group, protocol and order of blocks (heft validate STUDY.toml shows "
-      "them)");
+  command.add_option("--plan", &options->plan,
+                     "a study plan instead: runs its next participant's session");
   command.add_option("--participant", &options->participant,
-                     "the participant's id, any text (default with --plan: the next one's)");
-  command.add_option("--db", &options->db,
-                     "the log; an existing one gets another session (default: the plan's, or "
-                     "heft.db)");
+                     "the participant's id (default with --plan: the next)");
+  command.add_option("--db", &options->db, "the log; sessions are added (default: heft.db)");
   command.add_seed(options->seed);
   add_session_options(command, options->given);
   add_elsewhere_options(command, options->given.backup, options->events);

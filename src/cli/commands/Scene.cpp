@@ -161,7 +161,7 @@ void run_scene(const SceneOptions& options) {
 
 void add_scene(Command& app) {
   Command command = app.add_command(
-      "scene", "physics alone: from effector poses to clone and cube poses, as CSV",
+      "scene", "physics alone: effector poses in, clone and cube poses out (CSV)",
       {"heft scene SCENE.toml --trajectory T.csv > out.csv",
        "heft scene SCENE.toml --trajectory T.csv --simulator bullet-ea --rate 60",
        "heft scene SCENE.toml --trajectory T.csv --simulator auto --rate 60 --explain > out.csv"});

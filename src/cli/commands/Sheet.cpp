@@ -47,7 +47,7 @@ void add_body(Command& sheet, const char* name, const char* summary, LoadBody lo
 
 void add_sheet(Command& app) {
   Command command = app.add_command(
-      "sheet", "draw the board or the effector's cut-out net as PDF, to print",
+      "sheet", "draw the board or the effector's net as PDF, to print",
       {"heft sheet board --board protocols/apparatus/board.toml --out board.pdf",
        "heft sheet effector --effector protocols/apparatus/effector.toml --out effector.pdf"});
   command.needs_command();

@@ -33,12 +33,12 @@ center, z up, x to the participant's right); camera_x_m...camera_qz: the board
 in the camera's frame (x right, y down, z forward). Poses are unfiltered, and
 blank where nothing was found.
 n_tags, reprojection_px and quality are the effector's; without --effector the
-board's. reprojection_px: rms distance of tag edges from where the pose puts
-them. quality: 0 (none) to 1, how far the pose can be trusted; below 0.05 there
-is no pose. effector_t_s: when the effector's own row was read, which its pose
-is of; t_s unless the camera file has a readout_s.
-A picture that can't be read has a row in which nothing is found, and is named
-on stderr; the program then ends with exit code 1.
+board's. reprojection_px: rms distance of tag edges from the pose's. quality: 0
+(none) to 1, confidence in the pose; below 0.05 there is no pose. effector_t_s:
+when the effector's own row was read; equals t_s unless the camera file has a
+readout_s.
+A picture that cannot be read has a row without poses, and is named on stderr;
+the exit code is then 1.
 )";
 
 // n_tags, reprojection_px and quality are the effector's, or the board's if no effector file is
@@ -173,7 +173,7 @@ void run_track(const TrackOptions& options) {
 
 void add_track(Command& app) {
   Command command = app.add_command(
-      "track", "tracking alone: from pictures to poses of board and effector, as CSV",
+      "track", "tracking alone: pictures in, poses of board and effector out (CSV)",
       {"heft track --camera-file camera.yaml --board board.toml --effector effector.toml frames/",
        "heft track --camera-file camera.yaml --board board.toml one.png two.png",
        "heft track --camera-file camera.yaml --board board.toml film.mp4 > poses.csv"});

@@ -286,11 +286,9 @@ void validate_all(const std::vector<std::string>& paths) {
 }  // namespace
 
 void add_validate(Command& app) {
-  Command command = app.add_command(
-      "validate",
-      "check protocols, study plans, procedure, scene, board, effector, synthetic camera, display "
-      "and text files",
-      {"heft validate protocols/paper.toml", "heft validate my_study/*.toml"});
+  Command command =
+      app.add_command("validate", "check protocols, study plans and all other input files",
+                      {"heft validate protocols/paper.toml", "heft validate my_study/*.toml"});
   auto paths = std::make_shared<std::vector<std::string>>();
   command.add_option("FILE", paths.get(), "files to check; their kind is recognized").required();
   command.does([paths] { validate_all(*paths); });

@@ -136,7 +136,7 @@ std::vector<ExportTable> write_tables(const ExportSource& source, ExportFolder& 
   for (const ExportTable& table : tables) n_rows += source.count(table);
   ExportProgress count(n_rows, progress);
   for (const ExportTable& table : tables) {
-    const std::string name = begin + table.name + end;
+    const std::string name = fmt::format("{}{}{}", begin, table.name, end);
     RowFile file(folder.place(name), RowFile::Kind::csv);
     file.header(source.columns(table));
     std::int64_t n = 0;

@@ -20,7 +20,7 @@ namespace heft {
 
 /// The table with the names of an enumeration, which columns refer to.
 template <typename Enum>
-inline constexpr std::string_view closed_list = "";
+inline constexpr std::string_view closed_list;
 template <>
 inline constexpr std::string_view closed_list<Task> = "list_task";
 template <>

@@ -155,7 +155,7 @@ void SessionLog::Impl::fail(const std::string& what, const std::exception& reaso
     throw LogBusy(error.what());
   }
   failure_ = error.what();
-  throw error;
+  throw Error(error);
 }
 
 Error SessionLog::Impl::described(const std::string& what, const std::exception& reason) {

@@ -149,7 +149,7 @@ class Fit(unittest.TestCase):
         self.assertEqual(run("/nowhere.csv", *PSYCHOMETRIC).returncode, 1)
 
     def test_help_has_examples_and_formulas(self):
-        text = run("--help").stdout.decode()
+        text = run("--help-all").stdout.decode()
         self.assertIn("heft fit answers.csv --model psychometric", text)
         self.assertIn("threshold_75_g = 0.6745 / sensitivity", text)
 
