@@ -157,7 +157,7 @@ TEST_F(LogFile, WhoIsLeftOutIsInNoFigure) {
   EXPECT_EQ(summary.flow.n_analyzed, 1);
 }
 
-TEST(Dataset, pictures_are_counted_over_a_sessions_camera_events) {
+TEST(Dataset, PicturesAreCountedOverASessionsCameraEvents) {
   std::vector<LoggedEvent> events(3);
   events[0].event.what = CameraReport{100, 2, 1};
   events[1].event.what = CameraReport{50, 0, 3};

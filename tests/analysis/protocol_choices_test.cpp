@@ -31,7 +31,7 @@ SessionData session_of(const Protocol& protocol) {
   return data;
 }
 
-TEST(ProtocolChoices, name_what_the_paper_leaves_open) {
+TEST(ProtocolChoices, NameWhatThePaperLeavesOpen) {
   const auto choices = choices_in(shipped("paper.toml"));
   EXPECT_EQ(value_of(choices, "effector, length x width x height"), "90 x 40 x 40 mm");
   EXPECT_EQ(value_of(choices, "friction"), "0.8, between_surfaces");
@@ -44,7 +44,7 @@ TEST(ProtocolChoices, name_what_the_paper_leaves_open) {
             "from 175 g, steps 50 g, halved every 2 reversals");
 }
 
-TEST(ProtocolChoices, name_constant_stimuli) {
+TEST(ProtocolChoices, NameConstantStimuli) {
   Protocol protocol = shipped("quick.toml");
   auto& block = *block_as<Comparison::Block>(protocol.blocks.back());
   block.staircases = {{200, {"c", ConstantConfig{.levels = {-5, 12.5}, .n_per_level = 9}}}};
@@ -52,7 +52,7 @@ TEST(ProtocolChoices, name_constant_stimuli) {
             "constant levels -5, 12.5 g, each 9 times, order blocks");
 }
 
-TEST(ProtocolChoices, name_declared_techniques) {
+TEST(ProtocolChoices, NameDeclaredTechniques) {
   Protocol protocol = shipped("quick.toml");
   protocol.techniques = {{"soft", Coupling{.stiffness_n_per_m = 25}},
                          {"ratio", Gain{MassCurve({{0.015, 0.95}, {0.8, 0.2}}), 0.1}},
@@ -64,7 +64,7 @@ TEST(ProtocolChoices, name_declared_techniques) {
   EXPECT_EQ(value_of(choices, "technique slow"), "speed limit 0.05 m/s at 200 g, back in 0.05 s");
 }
 
-TEST(ProtocolChoices, are_told_once_a_protocol_and_versions_are_told_apart) {
+TEST(ProtocolChoices, AreToldOnceAProtocolAndVersionsAreToldApart) {
   const Protocol quick = shipped("quick.toml");
   Protocol changed = quick;
   changed.text += "\n# changed\n";
@@ -77,7 +77,7 @@ TEST(ProtocolChoices, are_told_once_a_protocol_and_versions_are_told_apart) {
   EXPECT_EQ(both.back().protocol, "quick 01234567");
 }
 
-TEST(ProtocolChoices, tell_what_was_in_force_in_any_of_the_sessions) {
+TEST(ProtocolChoices, TellWhatWasInForceInAnyOfTheSessions) {
   const Protocol quick = shipped("quick.toml");
   SessionData plain = session_of(quick), resumed = session_of(quick);
   LoggedSetup logged{1, 1, {}};
@@ -105,7 +105,7 @@ TEST(ProtocolChoices, tell_what_was_in_force_in_any_of_the_sessions) {
   EXPECT_EQ(value_of(choices, "changed by --set"), "coupling.stiffness_n_per_m=25");
 }
 
-TEST(ProtocolChoices, a_text_that_is_no_protocol_has_none) {
+TEST(ProtocolChoices, ATextThatIsNoProtocolHasNone) {
   Protocol broken;
   broken.text = "nonsense";
   EXPECT_THAT(protocol_choices({session_of(broken)}), IsEmpty());

@@ -125,7 +125,7 @@ TEST_F(Replay, LogsOfOlderVersionsAreVerified) {
   }
 }
 
-TEST_F(Replay, a_column_that_the_upgrade_added_must_hold_what_it_writes) {
+TEST_F(Replay, AColumnThatTheUpgradeAddedMustHoldWhatItWrites) {
   test::copy_older_log(path);
   LogReader{path.string()};
   SQLite::Database(path.string(), SQLite::OPEN_READWRITE)
@@ -136,7 +136,7 @@ TEST_F(Replay, a_column_that_the_upgrade_added_must_hold_what_it_writes) {
   EXPECT_EQ(found.first->came_out, "NULL");
 }
 
-TEST_F(Replay, answers_later_than_the_next_pictures_are_replayed_exactly) {
+TEST_F(Replay, AnswersLaterThanTheNextPicturesAreReplayedExactly) {
   for (double delay_s : {0.0, 0.05, 0.07, 0.2}) {
     LateAnswers responder(delay_s);
     const Verification found = run_and_verify(responder);
@@ -149,7 +149,7 @@ TEST_F(Replay, answers_later_than_the_next_pictures_are_replayed_exactly) {
 }
 
 // The log has the effector as it was measured; what was predicted from it follows again.
-TEST_F(Replay, a_prediction_to_when_it_is_seen_is_replayed_exactly) {
+TEST_F(Replay, APredictionToWhenItIsSeenIsReplayedExactly) {
   see_through("input = \"extrapolate\"\npredict_s = 0.05\n");
   LateAnswers responder(0.05);
   const Verification found = run_and_verify(responder);
@@ -162,7 +162,7 @@ TEST_F(Replay, a_prediction_to_when_it_is_seen_is_replayed_exactly) {
 }
 
 // Over its place a cube does not appear, and the clone is just where it is predicted.
-TEST(SeeThrough, the_clone_is_ahead_and_the_effector_as_measured) {
+TEST(SeeThrough, TheCloneIsAheadAndTheEffectorAsMeasured) {
   Protocol protocol = testing::small_protocol();
   protocol.simulator.input.predict_s = 0.1;
   TrialPlan plan;
@@ -181,7 +181,7 @@ TEST(SeeThrough, the_clone_is_ahead_and_the_effector_as_measured) {
   EXPECT_EQ(world.advance(sample).frame.cubes.size(), 3u);
 }
 
-TEST_F(Replay, what_another_prediction_would_have_shown) {
+TEST_F(Replay, WhatAnotherPredictionWouldHaveShown) {
   LateAnswers responder(0.05);
   run_and_verify(responder);
   const LogReader reader(path.string());

@@ -72,7 +72,7 @@ class TamperedReplay : public ::testing::Test {
   const std::string file = folder.file("log.db"), whole = folder.file("whole.db");
 };
 
-TEST_F(TamperedReplay, frames_that_the_simulator_does_not_give_are_named_by_their_column) {
+TEST_F(TamperedReplay, FramesThatTheSimulatorDoesNotGiveAreNamedByTheirColumn) {
   const auto forge = [&](const std::string& column, const std::function<bool(FrameRow&)>& keeps) {
     bool done = false;
     store(forged(session(), [&](RecordedEntry& entry) {
@@ -103,7 +103,7 @@ TEST_F(TamperedReplay, frames_that_the_simulator_does_not_give_are_named_by_thei
   forge("trial_t_s", [](FrameRow&) { return false; });
 }
 
-TEST_F(TamperedReplay, a_log_without_its_end_is_verified_up_to_there_and_unfinished) {
+TEST_F(TamperedReplay, ALogWithoutItsEndIsVerifiedUpToThereAndUnfinished) {
   const auto n = session().entries().size();
   for (std::size_t kept : {n - 1, n / 2, n / 3}) {
     std::size_t count = 0;
@@ -122,7 +122,7 @@ TEST_F(TamperedReplay, a_log_without_its_end_is_verified_up_to_there_and_unfinis
   EXPECT_TRUE(verified().ended);
 }
 
-TEST_F(TamperedReplay, an_end_that_is_cut_off_is_missed) {
+TEST_F(TamperedReplay, AnEndThatIsCutOffIsMissed) {
   store(session());
   ASSERT_EQ(change("DELETE FROM event WHERE kind = 'ended'"), 1);
   change("UPDATE session SET state = 'running'");
@@ -133,7 +133,7 @@ TEST_F(TamperedReplay, an_end_that_is_cut_off_is_missed) {
 }
 
 // Nobody simulates a thousand million seconds to find out.
-TEST_F(TamperedReplay, times_that_are_far_off_are_found_before_they_are_simulated) {
+TEST_F(TamperedReplay, TimesThatAreFarOffAreFoundBeforeTheyAreSimulated) {
   store(session());
   ASSERT_GT(change("UPDATE frame SET trial_t_s = trial_t_s + 1e9"), 100);
   const auto start = std::chrono::steady_clock::now();
@@ -141,7 +141,7 @@ TEST_F(TamperedReplay, times_that_are_far_off_are_found_before_they_are_simulate
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
-TEST_F(TamperedReplay, what_no_log_holds_is_named) {
+TEST_F(TamperedReplay, WhatNoLogHoldsIsNamed) {
   for (const char* foreign :
        {"CREATE TABLE loot (text TEXT)", "CREATE VIEW loot AS SELECT 1 AS one",
         "CREATE INDEX loot ON trial (block)",
@@ -155,7 +155,7 @@ TEST_F(TamperedReplay, what_no_log_holds_is_named) {
   }
 }
 
-TEST_F(TamperedReplay, run_options_change_nothing_but_the_digest) {
+TEST_F(TamperedReplay, RunOptionsChangeNothingButTheDigest) {
   store(session());
   const SessionConfig before = load_session(LogReader(file), file, 1).setup;
   ASSERT_EQ(change("UPDATE session SET run_options = '{}'"), 1);
@@ -207,7 +207,7 @@ class EveryColumn : public TamperedReplay {
   }
 };
 
-TEST_F(EveryColumn, changed_by_one_step_is_found) {
+TEST_F(EveryColumn, ChangedByOneStepIsFound) {
   store(session());
   std::filesystem::copy_file(file, whole);
   const std::uint64_t seed = 20261122;

@@ -44,7 +44,7 @@ class IntroductionTest : public AnsweringTest {
   IntroductionTest() : AnsweringTest("introduction", 2) {}
 };
 
-TEST_F(AnsweringTest, validates_only_once_the_screen_offers_it) {
+TEST_F(AnsweringTest, ValidatesOnlyOnceTheScreenOffersIt) {
   answering_.give(labeling({heaviest, lightest, intermediate}), 1);
   const auto labels = until(4);
   ASSERT_EQ(labels.size(), 3u);
@@ -57,7 +57,7 @@ TEST_F(AnsweringTest, validates_only_once_the_screen_offers_it) {
   EXPECT_GE(validated[0].t_s - labels.back().t_s, 0.3);
 }
 
-TEST_F(AnsweringTest, corrects_a_first_label_so_that_the_last_word_stands) {
+TEST_F(AnsweringTest, CorrectsAFirstLabelSoThatTheLastWordStands) {
   answering_.give(labeling({heaviest, lightest, intermediate}, true), 0);
   const auto labels = until(6);
   ASSERT_EQ(labels.size(), 4u);
@@ -72,7 +72,7 @@ TEST_F(AnsweringTest, corrects_a_first_label_so_that_the_last_word_stands) {
   EXPECT_THAT(on_screen, testing::ElementsAre(heaviest, lightest, intermediate));
 }
 
-TEST_F(AnsweringTest, a_pause_takes_no_taps_and_keeps_their_distances) {
+TEST_F(AnsweringTest, APauseTakesNoTapsAndKeepsTheirDistances) {
   answering_.give(labeling({heaviest, lightest, intermediate}), 1);
   screen_.screen = Screen::paused;
   EXPECT_TRUE(until(4).empty());
@@ -84,7 +84,7 @@ TEST_F(AnsweringTest, a_pause_takes_no_taps_and_keeps_their_distances) {
   EXPECT_FALSE(answering_.free());
 }
 
-TEST_F(AnsweringTest, gives_up_after_three_answers_that_were_not_taken) {
+TEST_F(AnsweringTest, GivesUpAfterThreeAnswersThatWereNotTaken) {
   for (int i = 0; i < 3; ++i) {
     EXPECT_FALSE(answering_.gave_up(t_s_));
     answering_.give({{{"dont_know"}}}, t_s_ + 0.5);
@@ -96,7 +96,7 @@ TEST_F(AnsweringTest, gives_up_after_three_answers_that_were_not_taken) {
   EXPECT_TRUE(answering_.gave_up(t_s_));
 }
 
-TEST_F(AnsweringTest, gives_up_waiting_for_cubes) {
+TEST_F(AnsweringTest, GivesUpWaitingForCubes) {
   EXPECT_FALSE(answering_.gave_up(59));
   EXPECT_TRUE(answering_.gave_up(61));
   DisplayedFrame frame;
@@ -105,7 +105,7 @@ TEST_F(AnsweringTest, gives_up_waiting_for_cubes) {
   EXPECT_FALSE(answering_.gave_up(61));
 }
 
-TEST_F(IntroductionTest, notices_a_wrong_choice_by_the_screen_alone) {
+TEST_F(IntroductionTest, NoticesAWrongChoiceByTheScreenAlone) {
   answering_.give(choosing(2), 0.5);
   ASSERT_EQ(until(1).size(), 1u);
   EXPECT_FALSE(answering_.free());

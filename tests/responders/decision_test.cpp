@@ -25,7 +25,7 @@ Answer decide(const ResponderParameters& parameters, Task task, std::vector<doub
   return Decision(parameters, 7, {trial, 1, task, {}}).decide(percepts_mm, wrong_slots);
 }
 
-TEST(Decision, the_criterion_grows_with_the_larger_percept) {
+TEST(Decision, TheCriterionGrowsWithTheLargerPercept) {
   // 4 mm + a tenth of the larger one.
   EXPECT_EQ(chosen_slot(decide(certain(), "comparison", {16.1, 10})), 1);
   EXPECT_EQ(chosen_slot(decide(certain(), "comparison", {10, 15.4})), std::nullopt);
@@ -34,13 +34,13 @@ TEST(Decision, the_criterion_grows_with_the_larger_percept) {
   EXPECT_EQ(chosen_slot(decide(certain(), "comparison", {0, 0})), std::nullopt);
 }
 
-TEST(Decision, sorting_labels_by_percept_or_gives_up) {
+TEST(Decision, SortingLabelsByPerceptOrGivesUp) {
   EXPECT_THAT(given_labels(decide(certain(), "sorting", {30, 2, 90})),
               ElementsAre("intermediate", "lightest", "heaviest"));
   EXPECT_THAT(given_labels(decide(certain(), "sorting", {1, 2, 3})), IsEmpty());
 }
 
-TEST(Decision, guesses_as_often_as_it_is_told_to) {
+TEST(Decision, GuessesAsOftenAsItIsToldTo) {
   ResponderParameters parameters = certain();
   parameters.judgment_noise_mm = 0.1;
   parameters.guess_probability = 0.3;
@@ -50,7 +50,7 @@ TEST(Decision, guesses_as_often_as_it_is_told_to) {
   EXPECT_NEAR(n_guesses, 300, 60);  // four standard deviations
 }
 
-TEST(Decision, a_lapse_answers_anything_equally_often) {
+TEST(Decision, ALapseAnswersAnythingEquallyOften) {
   ResponderParameters parameters = certain();
   parameters.lapse_rate = 1;
   std::array<int, 3> counts{};
@@ -60,14 +60,14 @@ TEST(Decision, a_lapse_answers_anything_equally_often) {
   for (int count : counts) EXPECT_NEAR(count, 1000, 105);  // four standard deviations
 }
 
-TEST(Decision, the_introduction_always_names_a_cube_and_not_the_one_just_found_wrong) {
+TEST(Decision, TheIntroductionAlwaysNamesACubeAndNotTheOneJustFoundWrong) {
   EXPECT_EQ(chosen_slot(decide(certain(), "introduction", {0, 0.1})), 2);
   EXPECT_EQ(chosen_slot(decide(certain(), "introduction", {0, 0.1}, {2})), 1);
   EXPECT_EQ(chosen_slot(decide(certain(), "introduction", {0, 0.1}, {2, 1})), 2)
       << "shuffled since";
 }
 
-RC_GTEST_PROP(HeaviestSlot, is_the_largest_that_is_not_ruled_out, ()) {
+RC_GTEST_PROP(HeaviestSlot, IsTheLargestThatIsNotRuledOut, ()) {
   const auto values =
       *rc::gen::nonEmpty(rc::gen::container<std::vector<double>>(rc::gen::arbitrary<double>()));
   const int n = static_cast<int>(values.size());
@@ -84,7 +84,7 @@ RC_GTEST_PROP(HeaviestSlot, is_the_largest_that_is_not_ruled_out, ()) {
 }
 
 // Words for three cubes, ranks for any other number: what the screen offers.
-TEST(Decision, labels_are_those_that_a_trial_of_so_many_cubes_has) {
+TEST(Decision, LabelsAreThoseThatATrialOfSoManyCubesHas) {
   EXPECT_THAT(labels_in_order(std::vector{3.0, 1.0}), ElementsAre("2", "1"));
   EXPECT_THAT(labels_in_order(std::vector{3.0, 1.0, 2.0}),
               ElementsAre("heaviest", "lightest", "intermediate"));

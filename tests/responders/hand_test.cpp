@@ -46,7 +46,7 @@ std::vector<HandMove> explore(World& world, const Stage& stage, std::uint64_t se
   return moves;
 }
 
-TEST(MinimumJerk, starts_and_ends_at_rest_and_peaks_at_15_8_of_the_mean_speed) {
+TEST(MinimumJerk, StartsAndEndsAtRestAndPeaksAt158OfTheMeanSpeed) {
   const double h = 1e-4;
   const auto speed = [&](double u) {
     return (minimum_jerk(u + h) - minimum_jerk(u - h)) / (2 * h);
@@ -60,7 +60,7 @@ TEST(MinimumJerk, starts_and_ends_at_rest_and_peaks_at_15_8_of_the_mean_speed) {
   for (double u = 0.01; u < 0.99; u += 0.01) EXPECT_LE(speed(u), 1.875 + 1e-6);
 }
 
-TEST(Hand, strokes_have_human_length_and_speed_and_a_minimum_jerk_shape) {
+TEST(Hand, StrokesHaveHumanLengthAndSpeedAndAMinimumJerkShape) {
   int n_strokes = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Stage stage = fake::row_of(3);
@@ -87,7 +87,7 @@ TEST(Hand, strokes_have_human_length_and_speed_and_a_minimum_jerk_shape) {
   EXPECT_GE(n_strokes, 20 * 6);
 }
 
-TEST(Hand, pushes_every_cube_from_the_front_and_never_touches_a_neighbor) {
+TEST(Hand, PushesEveryCubeFromTheFrontAndNeverTouchesANeighbor) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const Stage stage = fake::row_of(3);
     World world(stage, seed % 2 ? "C1" : "C2", {15, 200, 800});
@@ -101,7 +101,7 @@ TEST(Hand, pushes_every_cube_from_the_front_and_never_touches_a_neighbor) {
   }
 }
 
-TEST(Hand, moves_without_jumps) {
+TEST(Hand, MovesWithoutJumps) {
   const auto responder = fake::make("simulated", 3);
   fake::TrialSetup setup;
   setup.rate_hz = 60;
@@ -113,7 +113,7 @@ TEST(Hand, moves_without_jumps) {
   }
 }
 
-TEST(Hand, waits_at_rest_until_the_cubes_appear) {
+TEST(Hand, WaitsAtRestUntilTheCubesAppear) {
   const Stage stage = fake::row_of(2);
   Hand hand(default_parameters(), 1, {1, 1, "comparison", stage});
   const std::vector<int> cubes{0, 1};
@@ -131,7 +131,7 @@ TEST(Hand, waits_at_rest_until_the_cubes_appear) {
   EXPECT_NEAR(tip_m.x(), 0, 1e-12);
 }
 
-TEST(Hand, approaches_cubes_where_it_sees_them) {
+TEST(Hand, ApproachesCubesWhereItSeesThem) {
   const Stage stage = fake::row_of(2);
   World world(stage, "C2", {15, 15});
   world.cubes()[0].position_m += Eigen::Vector3d(-0.02, 0.05, 0);
@@ -150,7 +150,7 @@ TEST(Hand, approaches_cubes_where_it_sees_them) {
   EXPECT_TRUE(reached[1]);
 }
 
-TEST(Hand, leaves_a_cube_that_others_hem_in) {
+TEST(Hand, LeavesACubeThatOthersHemIn) {
   const Stage stage = fake::row_of(2);
   World world(stage, "C2", {15, 15});
   world.cubes()[1].position_m = world.cubes()[0].position_m + Eigen::Vector3d(0, -0.05, 0);
@@ -159,7 +159,7 @@ TEST(Hand, leaves_a_cube_that_others_hem_in) {
   EXPECT_EQ(world.n_pushes()[0], 0) << "the other cube stands in the way";
 }
 
-TEST(Hand, goes_home_when_the_cubes_are_taken_away) {
+TEST(Hand, GoesHomeWhenTheCubesAreTakenAway) {
   const Stage stage = fake::row_of(2);
   Hand hand(default_parameters(), 1, {1, 1, "comparison", stage});
   const std::vector<int> cubes{0, 1};

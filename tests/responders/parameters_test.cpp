@@ -23,7 +23,7 @@ std::string refusal(std::string_view responder, const std::vector<Parameter>& pa
   return "";
 }
 
-TEST(Parameters, mistakes_are_reported_together_at_their_places) {
+TEST(Parameters, MistakesAreReportedTogetherAtTheirPlaces) {
   const std::string text = refusal("simulated", {{"criterion_m", 3.0, {"p.toml", 1, 1}},
                                                  {"lapse_rate", 1.5, {"p.toml", 2, 14}},
                                                  {"hold_s", std::string("long"), {"p.toml", 3, 9}},
@@ -37,7 +37,7 @@ TEST(Parameters, mistakes_are_reported_together_at_their_places) {
   EXPECT_THAT(text, HasSubstr("p.toml:5:1: unknown parameter \"p\""));
 }
 
-TEST(Parameters, a_responder_takes_only_its_own) {
+TEST(Parameters, AResponderTakesOnlyItsOwn) {
   EXPECT_EQ(refusal("coin", {{"p", 0.25, {}}}), "");
   EXPECT_THAT(refusal("coin", {{"lapse_rate", 0.1, {"c.toml", 1, 1}}}),
               HasSubstr("expected \"p\""));
@@ -45,7 +45,7 @@ TEST(Parameters, a_responder_takes_only_its_own) {
   EXPECT_THAT(refusal("criterion_only", {{"cue", std::string("offset"), {}}}), HasSubstr("cue"));
 }
 
-TEST(Parameters, every_row_says_all_about_itself_and_is_described) {
+TEST(Parameters, EveryRowSaysAllAboutItselfAndIsDescribed) {
   const std::string text = describe_parameters(responder_named("simulated"));
   for (const ParameterRow& row : parameter_rows()) {
     EXPECT_LE(row.least, row.value) << row.name;
@@ -59,7 +59,7 @@ TEST(Parameters, every_row_says_all_about_itself_and_is_described) {
   EXPECT_EQ(describe_parameters(responder_named("always_yes")), "");
 }
 
-TEST(Parameters, participants_differ_by_the_spread_and_not_at_all_without_it) {
+TEST(Parameters, ParticipantsDifferByTheSpreadAndNotAtAllWithoutIt) {
   std::vector<double> logs;
   for (std::uint64_t seed = 0; seed < 2000; ++seed)
     logs.push_back(std::log(participant_parameters({seed, {}, ""}, simulated_parts).criterion_mm /
@@ -96,7 +96,7 @@ std::string trace(const std::vector<Parameter>& parameters) {
   return text;
 }
 
-TEST(Parameters, every_one_of_them_changes_what_a_participant_does) {
+TEST(Parameters, EveryOneOfThemChangesWhatAParticipantDoes) {
   const std::string usual = trace({});
   EXPECT_TRUE(trace({}) == usual);
   EXPECT_TRUE(trace({{"cue", std::string("cube_motion"), {}}}) != usual);

@@ -49,7 +49,7 @@ std::vector<double> percepts_mm(const ResponderParameters& parameters,
   return percepts_mm(parameters, stage, World(stage, "C2", masses_g));
 }
 
-TEST(Perception, percepts_grow_with_mass_until_the_cube_does_not_move) {
+TEST(Perception, PerceptsGrowWithMassUntilTheCubeDoesNotMove) {
   double last_mm = 0;
   for (double mass_g : {15, 30, 60, 100, 150, 200, 300, 400}) {
     const double percept_mm = percepts_mm(noiseless(), {mass_g, 10}).front();
@@ -61,14 +61,14 @@ TEST(Perception, percepts_grow_with_mass_until_the_cube_does_not_move) {
   EXPECT_EQ(percepts_mm(noiseless(), {1500, 10}).front(), heavy_mm);
 }
 
-TEST(Perception, attributes_the_offset_to_the_cube_that_is_pushed) {
+TEST(Perception, AttributesTheOffsetToTheCubeThatIsPushed) {
   const auto percepts = percepts_mm(noiseless(), {200, 15, 400});
   EXPECT_NEAR(percepts[0], 0.157 * 200, 3);
   EXPECT_NEAR(percepts[1], 0.157 * 15, 0.5);
   EXPECT_NEAR(percepts[2], 0.157 * 400, 6);
 }
 
-TEST(Perception, in_C1_or_without_a_clone_every_percept_is_exactly_nothing) {
+TEST(Perception, InC1OrWithoutACloneEveryPerceptIsExactlyNothing) {
   const Stage stage = fake::row_of(3);
   const std::vector<double> masses{15, 200, 800};
   EXPECT_THAT(percepts_mm(default_parameters(), stage, World(stage, "C1", masses)),
@@ -77,7 +77,7 @@ TEST(Perception, in_C1_or_without_a_clone_every_percept_is_exactly_nothing) {
               ElementsAre(0, 0, 0));
 }
 
-TEST(Perception, offsets_that_are_not_visible_are_nothing) {
+TEST(Perception, OffsetsThatAreNotVisibleAreNothing) {
   ResponderParameters parameters = default_parameters();
   parameters.just_visible_mm = 5;
   const auto percepts = percepts_mm(parameters, {15, 200});
@@ -85,7 +85,7 @@ TEST(Perception, offsets_that_are_not_visible_are_nothing) {
   EXPECT_GT(percepts[1], 20);
 }
 
-TEST(Perception, half_the_pictures_tell_something_else) {
+TEST(Perception, HalfThePicturesTellSomethingElse) {
   for (const auto& parameters : {default_parameters(), noiseless()}) {
     const auto at_15 = percepts_mm(parameters, {100, 200, 300}, 15);
     const auto at_7 = percepts_mm(parameters, {100, 200, 300}, 7.5);
@@ -93,7 +93,7 @@ TEST(Perception, half_the_pictures_tell_something_else) {
   }
 }
 
-TEST(Perception, the_missing_motion_of_a_cube_is_a_cue_as_well) {
+TEST(Perception, TheMissingMotionOfACubeIsACueAsWell) {
   ResponderParameters parameters = noiseless();
   parameters.cue = Cue::cube_motion;
   double last_mm = 0;
@@ -127,7 +127,7 @@ class PictureTest : public testing::Test {
   Perception perception_{noiseless(), 1, {1, 1, "comparison", stage_}};
 };
 
-TEST_F(PictureTest, a_cube_counts_as_looked_at_once_it_is_seen_touched) {
+TEST_F(PictureTest, ACubeCountsAsLookedAtOnceItIsSeenTouched) {
   EXPECT_THAT(perception_.not_looked_at(), ElementsAre(0, 1));
   perception_.see(touching(1, 1));
   EXPECT_THAT(perception_.not_looked_at(), ElementsAre(0));
@@ -136,7 +136,7 @@ TEST_F(PictureTest, a_cube_counts_as_looked_at_once_it_is_seen_touched) {
 }
 
 // Pictures further apart than the eye integrates over: each reading counts in full.
-TEST_F(PictureTest, the_percept_is_the_mean_of_looks) {
+TEST_F(PictureTest, ThePerceptIsTheMeanOfLooks) {
   perception_.see(touching(1, 1));  // its first picture has lasted for no time yet: 0 mm
   perception_.see(touching(1, 5));
   EXPECT_NEAR(perception_.percepts_mm()[1], 10, 1e-9);
@@ -144,7 +144,7 @@ TEST_F(PictureTest, the_percept_is_the_mean_of_looks) {
   EXPECT_NEAR(perception_.percepts_mm()[1], 40.0 / 3, 1e-9);
 }
 
-TEST_F(PictureTest, another_cube_is_another_look_even_at_once) {
+TEST_F(PictureTest, AnotherCubeIsAnotherLookEvenAtOnce) {
   perception_.see(touching(1, 1));
   perception_.see(touching(1, 5));
   perception_.see(touching(0, 5.1));
@@ -153,7 +153,7 @@ TEST_F(PictureTest, another_cube_is_another_look_even_at_once) {
   EXPECT_NEAR(perception_.percepts_mm()[1], 10, 1e-9);
 }
 
-TEST_F(PictureTest, an_effector_out_of_view_tells_nothing) {
+TEST_F(PictureTest, AnEffectorOutOfViewTellsNothing) {
   perception_.see(touching(1, 1));
   DisplayedFrame frame = touching(1, 5);
   frame.tracked = false;

@@ -22,7 +22,7 @@ TrialSetup setup_of(Task task, std::vector<double> masses_g, int trial_number = 
   return setup;
 }
 
-TEST(Responders, are_found_by_name_and_near_misses_are_named) {
+TEST(Responders, AreFoundByNameAndNearMissesAreNamed) {
   for (const ResponderEntry& entry : responders()) EXPECT_EQ(&responder_named(entry.name), &entry);
   try {
     responder_named("always_yess");
@@ -33,7 +33,7 @@ TEST(Responders, are_found_by_name_and_near_misses_are_named) {
   }
 }
 
-TEST(AlwaysYes, finds_a_difference_every_time_on_either_side) {
+TEST(AlwaysYes, FindsADifferenceEveryTimeOnEitherSide) {
   const auto responder = make("always_yes", 3);
   std::multiset<int> slots;
   for (int trial = 1; trial <= 200; ++trial) {
@@ -46,7 +46,7 @@ TEST(AlwaysYes, finds_a_difference_every_time_on_either_side) {
   EXPECT_EQ(slots.count(1) + slots.count(2), 200u);
 }
 
-TEST(AlwaysYes, sorts_in_every_order_and_validates) {
+TEST(AlwaysYes, SortsInEveryOrderAndValidates) {
   const auto responder = make("always_yes", 3);
   std::set<std::vector<std::string>> orders;
   for (int trial = 1; trial <= 100; ++trial) {
@@ -60,7 +60,7 @@ TEST(AlwaysYes, sorts_in_every_order_and_validates) {
   EXPECT_EQ(orders.size(), 6u);
 }
 
-TEST(AlwaysNo, never_finds_one_but_for_the_introduction) {
+TEST(AlwaysNo, NeverFindsOneButForTheIntroduction) {
   const auto responder = make("always_no", 3);
   EXPECT_THAT(said(run_trial(*responder, setup_of("comparison", {15, 800}))),
               ElementsAre("no_difference 0 "));
@@ -72,7 +72,7 @@ TEST(AlwaysNo, never_finds_one_but_for_the_introduction) {
               ElementsAre("select 1 "));
 }
 
-TEST(Coin, falls_on_its_side_with_its_probability) {
+TEST(Coin, FallsOnItsSideWithItsProbability) {
   const auto responder = make("coin", 8, {{"p", 0.3, {}}});
   int n_different = 0;
   for (int trial = 1; trial <= 1000; ++trial)
@@ -81,7 +81,7 @@ TEST(Coin, falls_on_its_side_with_its_probability) {
   EXPECT_NEAR(n_different, 300, 58);  // four standard deviations
 }
 
-TEST(CriterionOnly, depends_on_its_criterion_and_on_no_cube) {
+TEST(CriterionOnly, DependsOnItsCriterionAndOnNoCube) {
   const auto share_different = [](double criterion_mm, std::vector<double> masses_g) {
     const auto responder = make("criterion_only", 2,
                                 {{"criterion_mm", criterion_mm, {}},
@@ -97,7 +97,7 @@ TEST(CriterionOnly, depends_on_its_criterion_and_on_no_cube) {
   EXPECT_EQ(share_different(100, {15, 1500}), 0);
 }
 
-TEST(RestingResponders, leave_the_cubes_alone_and_answer_soon_after_seeing_them) {
+TEST(RestingResponders, LeaveTheCubesAloneAndAnswerSoonAfterSeeingThem) {
   for (std::string_view name : {"always_yes", "always_no", "coin", "criterion_only"}) {
     const auto responder = make(name, 6);
     for (Task task : {"introduction", "sorting", "comparison"}) {

@@ -44,7 +44,7 @@ class ScriptedTest : public testing::Test {
   const std::string header_ = "trial_number,t_s,action,slot,label\n";
 };
 
-TEST_F(ScriptedTest, plays_back_what_another_responder_did) {
+TEST_F(ScriptedTest, PlaysBackWhatAnotherResponderDid) {
   const auto original = fake::make("simulated", 21);
   fake::TrialSetup setup;
   setup.trial_number = 7;
@@ -75,7 +75,7 @@ TEST_F(ScriptedTest, plays_back_what_another_responder_did) {
   EXPECT_EQ(result.n_pushes, wanted.n_pushes);
 }
 
-TEST_F(ScriptedTest, ends_with_its_last_action_and_pose) {
+TEST_F(ScriptedTest, EndsWithItsLastActionAndPose) {
   write("trial_1.csv", still_);
   write("actions.csv", header_);
   fake::TrialSetup setup;
@@ -89,7 +89,7 @@ TEST_F(ScriptedTest, ends_with_its_last_action_and_pose) {
   EXPECT_EQ(later.actions.at(0).t_s, 6);
 }
 
-TEST_F(ScriptedTest, waits_with_validate_until_it_is_offered_but_not_forever) {
+TEST_F(ScriptedTest, WaitsWithValidateUntilItIsOfferedButNotForever) {
   write("trial_1.csv", still_);
   write("actions.csv", header_ +
                            "1,1,label,1,heaviest\n1,2,label,2,lightest\n"
@@ -106,7 +106,7 @@ TEST_F(ScriptedTest, waits_with_validate_until_it_is_offered_but_not_forever) {
   EXPECT_LT(stuck.end_s, 5.2);
 }
 
-TEST_F(ScriptedTest, taps_after_a_pause_what_fell_into_it) {
+TEST_F(ScriptedTest, TapsAfterAPauseWhatFellIntoIt) {
   write("trial_1.csv", still_);
   write("actions.csv", header_ + "1,2,dont_know,,\n");
   fake::TrialSetup setup;
@@ -118,7 +118,7 @@ TEST_F(ScriptedTest, taps_after_a_pause_what_fell_into_it) {
   EXPECT_NEAR(result.actions.at(0).t_s, 6, 1e-9);
 }
 
-TEST_F(ScriptedTest, says_where_the_effector_is_out_of_view) {
+TEST_F(ScriptedTest, SaysWhereTheEffectorIsOutOfView) {
   write("trial_1.csv", still_ + "5,,,,,,,\n6,0,0,0,1,0,0,0\n");
   write("actions.csv", header_);
   const auto responder = make();
@@ -128,7 +128,7 @@ TEST_F(ScriptedTest, says_where_the_effector_is_out_of_view) {
   EXPECT_TRUE(responder->hand(6).in_view);
 }
 
-TEST_F(ScriptedTest, every_bad_cell_is_reported_at_its_place) {
+TEST_F(ScriptedTest, EveryBadCellIsReportedAtItsPlace) {
   write("trial_1.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,zero,0,0,1,0,0,0\n");
   write("actions.csv", header_ +
                            "0,1,select,1,\n"
@@ -157,13 +157,13 @@ TEST_F(ScriptedTest, every_bad_cell_is_reported_at_its_place) {
     EXPECT_THAT(text, HasSubstr(at(wanted)));
 }
 
-TEST_F(ScriptedTest, actions_without_a_trajectory_are_a_mistake) {
+TEST_F(ScriptedTest, ActionsWithoutATrajectoryAreAMistake) {
   write("trial_1.csv", still_);
   write("actions.csv", header_ + "4,2,select,2,\n");
   EXPECT_THAT(refusal(), HasSubstr("there is no trial_4.csv"));
 }
 
-TEST_F(ScriptedTest, a_missing_trial_action_file_or_folder_is_named) {
+TEST_F(ScriptedTest, AMissingTrialActionFileOrFolderIsNamed) {
   EXPECT_THAT(refusal(), HasSubstr(at("actions.csv")));
   write("actions.csv", header_);
   write("trial_1.csv", still_);
@@ -178,7 +178,7 @@ TEST_F(ScriptedTest, a_missing_trial_action_file_or_folder_is_named) {
   EXPECT_THAT(refusal(), HasSubstr("cannot read the recording " + folder_.string()));
 }
 
-TEST_F(ScriptedTest, actions_that_the_task_does_not_offer_are_refused_at_their_line) {
+TEST_F(ScriptedTest, ActionsThatTheTaskDoesNotOfferAreRefusedAtTheirLine) {
   write("trial_1.csv", still_);
   write("actions.csv", header_ + "1,1,validate,,\n1,2,select,3,\n");
   const auto responder = make();

@@ -56,7 +56,7 @@ Counts sort_many(const TrialSetup& base, int n_participants, int n_trials) {
   return counts;
 }
 
-TEST(Simulated, in_C1_permuting_the_masses_leaves_every_answer_unchanged) {
+TEST(Simulated, InC1PermutingTheMassesLeavesEveryAnswerUnchanged) {
   int n_trials = 0;
   std::vector<std::string> first_answers;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
@@ -82,7 +82,7 @@ TEST(Simulated, in_C1_permuting_the_masses_leaves_every_answer_unchanged) {
   EXPECT_GT(first_answers.size(), 2u) << "answers that are all alike would prove nothing";
 }
 
-TEST(Simulated, in_C2_permuting_the_masses_changes_answers) {
+TEST(Simulated, InC2PermutingTheMassesChangesAnswers) {
   int n_changed = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const auto responder = make("simulated", seed);
@@ -94,7 +94,7 @@ TEST(Simulated, in_C2_permuting_the_masses_changes_answers) {
   EXPECT_GE(n_changed, 18);
 }
 
-TEST(Simulated, sorts_in_C2_far_above_chance_and_at_chance_without_the_clone) {
+TEST(Simulated, SortsInC2FarAboveChanceAndAtChanceWithoutTheClone) {
   TrialSetup setup = setup_of("sorting", "C2", 1);
   const Counts seen = sort_many(setup, 30, 6);
   EXPECT_LT(1 - binomial_at_most(seen.correct - 1, 180, 1.0 / 6), 1e-9);
@@ -109,7 +109,7 @@ TEST(Simulated, sorts_in_C2_far_above_chance_and_at_chance_without_the_clone) {
   RecordProperty("answered_hidden", hidden.answered);
 }
 
-TEST(Simulated, compares_right_where_the_clone_tells_and_sees_no_difference_between_equals) {
+TEST(Simulated, ComparesRightWhereTheCloneTellsAndSeesNoDifferenceBetweenEquals) {
   int n_right = 0, n_different = 0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const auto responder = make("simulated", seed);
@@ -123,7 +123,7 @@ TEST(Simulated, compares_right_where_the_clone_tells_and_sees_no_difference_betw
   EXPECT_LE(n_different, 10);
 }
 
-TEST(Simulated, is_a_pure_function_of_seed_trial_and_attempt) {
+TEST(Simulated, IsAPureFunctionOfSeedTrialAndAttempt) {
   const TrialSetup setup = setup_of("sorting", "C2", 4);
   const auto one = make("simulated", 11), other = make("simulated", 11);
   run_trial(*one, setup_of("comparison", "C2", 3));  // leaves no trace
@@ -142,7 +142,7 @@ TEST(Simulated, is_a_pure_function_of_seed_trial_and_attempt) {
   EXPECT_NE(run_trial(*one, again).end_s, first.end_s);
 }
 
-RC_GTEST_PROP(Simulated, ends_every_task_by_allowed_actions_alone, ()) {
+RC_GTEST_PROP(Simulated, EndsEveryTaskByAllowedActionsAlone, ()) {
   TrialSetup setup;
   setup.task = *rc::gen::element<Task>("introduction", "sorting", "comparison");
   setup.condition = *rc::gen::element<std::string>("C1", "C2");
@@ -161,7 +161,7 @@ RC_GTEST_PROP(Simulated, ends_every_task_by_allowed_actions_alone, ()) {
   RC_ASSERT(result.n_side_hits == 0);
 }
 
-TEST(Simulated, tries_the_introduction_again_after_another_look) {
+TEST(Simulated, TriesTheIntroductionAgainAfterAnotherLook) {
   // A mind made of noise is often wrong at first.
   const std::vector<Parameter> noise{{"judgment_noise_mm", 50.0, {}}};
   int n_retries = 0;
@@ -179,7 +179,7 @@ TEST(Simulated, tries_the_introduction_again_after_another_look) {
   EXPECT_GT(n_retries, 5);
 }
 
-TEST(Simulated, stops_instead_of_waiting_forever_where_no_answer_is_taken) {
+TEST(Simulated, StopsInsteadOfWaitingForeverWhereNoAnswerIsTaken) {
   for (const ResponderEntry& entry : responders()) {
     if (entry.file == ResponderFile::folder) continue;
     const auto responder = make(entry.name, 5);

@@ -10,7 +10,7 @@
 namespace heft {
 namespace {
 
-TEST(Sources, hold_none_of_the_papers_results) {
+TEST(Sources, HoldNoneOfThePapersResults) {
   // Percentages as fractions, too.
   const std::regex results(
       R"((^|[^0-9.])(6\.2|55\.4|38\.5|78\.5|21\.5|10\.1|172\.3|271\.5|696\.2|72\.4|155\.3|394\.7|9\.6|20\.8|)"

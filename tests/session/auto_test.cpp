@@ -55,7 +55,7 @@ class AutoSimulator : public ::testing::Test {
           .string();
 };
 
-TEST_F(AutoSimulator, is_one_that_models_everything_at_its_own_rate) {
+TEST_F(AutoSimulator, IsOneThatModelsEverythingAtItsOwnRate) {
   const SimulatorPick pick = resolve_auto(protocol);
   EXPECT_TRUE(simulator_named(pick.simulator).for_sessions);
   EXPECT_NE(pick.simulator, "auto");
@@ -65,13 +65,13 @@ TEST_F(AutoSimulator, is_one_that_models_everything_at_its_own_rate) {
   EXPECT_GE(resolve_auto(protocol).rate_hz, 1000);
 }
 
-TEST_F(AutoSimulator, takes_shorter_steps_where_the_protocols_spring_is_faster) {
+TEST_F(AutoSimulator, TakesShorterStepsWhereTheProtocolsSpringIsFaster) {
   const double usual_hz = resolve_auto(protocol).rate_hz;
   protocol.coupling.stiffness_n_per_m *= 16;
   EXPECT_GT(resolve_auto(protocol).rate_hz, usual_hz);
 }
 
-TEST_F(AutoSimulator, is_logged_with_its_reason_and_replayed) {
+TEST_F(AutoSimulator, IsLoggedWithItsReasonAndReplayed) {
   EXPECT_EQ(run_until(100).end, RunEnd::finished);
   const SimulatorPick pick = resolve_auto(protocol);
   const LoggedSession session = logged();
@@ -83,7 +83,7 @@ TEST_F(AutoSimulator, is_logged_with_its_reason_and_replayed) {
   EXPECT_EQ(divergence(), "");
 }
 
-TEST_F(AutoSimulator, stays_as_the_log_says_when_the_session_goes_on_and_the_table_says_another) {
+TEST_F(AutoSimulator, StaysAsTheLogSaysWhenTheSessionGoesOnAndTheTableSaysAnother) {
   SessionConfig earlier = resolved()->config;
   earlier.simulator = "bullet-lx";  // as if the table had picked it at the start
   earlier.rate_hz = 120;
@@ -101,7 +101,7 @@ TEST_F(AutoSimulator, stays_as_the_log_says_when_the_session_goes_on_and_the_tab
   EXPECT_EQ(divergence(), "");
 }
 
-TEST_F(AutoSimulator, gives_way_to_one_that_is_named_when_the_session_goes_on) {
+TEST_F(AutoSimulator, GivesWayToOneThatIsNamedWhenTheSessionGoesOn) {
   ASSERT_EQ(run_until(2).end, RunEnd::stopped);
   const LoggedSession session = session_to_resume(db, std::nullopt);
   const ResolvedConfig config = resumed(session, "bullet-ea");
@@ -113,13 +113,13 @@ TEST_F(AutoSimulator, gives_way_to_one_that_is_named_when_the_session_goes_on) {
   EXPECT_EQ(divergence(), "");
 }
 
-TEST_F(AutoSimulator, may_be_asked_for_in_the_protocol) {
+TEST_F(AutoSimulator, MayBeAskedForInTheProtocol) {
   options.simulator.reset();
   protocol.simulator.name = "auto";
   EXPECT_EQ(resolved()->protocol->simulator.name, resolve_auto(protocol).simulator);
 }
 
-TEST_F(AutoSimulator, leaves_no_trace_where_nobody_asked_for_it) {
+TEST_F(AutoSimulator, LeavesNoTraceWhereNobodyAskedForIt) {
   options.simulator = "bullet";
   const ResolvedConfig config = resolved();
   EXPECT_EQ(config->config.simulator_reason, "");

@@ -75,7 +75,7 @@ Sorted sort_cubes(
   }
 }
 
-TEST(Blindness, permuting_the_masses_in_c1_leaves_every_answer_unchanged) {
+TEST(Blindness, PermutingTheMassesInC1LeavesEveryAnswerUnchanged) {
   const Protocol protocol = small_protocol();
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     std::vector<double> masses_g{15, 200, 800};
@@ -85,7 +85,7 @@ TEST(Blindness, permuting_the_masses_in_c1_leaves_every_answer_unchanged) {
   }
 }
 
-TEST(Blindness, hiding_the_clone_drops_c2_sorting_to_chance) {
+TEST(Blindness, HidingTheCloneDropsC2SortingToChance) {
   const Protocol protocol = small_protocol();
   constexpr int n = 120;
   int n_right = 0, n_right_hidden = 0, n_answered_hidden = 0;
@@ -107,7 +107,7 @@ TEST(Blindness, hiding_the_clone_drops_c2_sorting_to_chance) {
               4 * std::sqrt(n_answered_hidden * chance * (1 - chance)));
 }
 
-TEST(Blindness, halving_the_display_rate_changes_what_is_perceived) {
+TEST(Blindness, HalvingTheDisplayRateChangesWhatIsPerceived) {
   Protocol protocol = small_protocol();
   int n_changed = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {

@@ -236,7 +236,7 @@ INSTANTIATE_TEST_SUITE_P(From, AnswerInALockedDatabase, ::testing::Bool(), [](co
   return from.param ? "its_last_contact" : "itself";
 });
 
-TEST_P(AnswerInALockedDatabase, is_kept_and_the_session_pauses_and_says_so) {
+TEST_P(AnswerInALockedDatabase, IsKeptAndTheSessionPausesAndSaysSo) {
   BusySession session;
   const LockDuringAnAnswer lock(session, GetParam());
   EXPECT_EQ(session.run(), RunEnd::finished);
@@ -254,7 +254,7 @@ TEST_P(AnswerInALockedDatabase, is_kept_and_the_session_pauses_and_says_so) {
   }));
 }
 
-TEST_P(AnswerInALockedDatabase, can_be_vetoed_meanwhile) {
+TEST_P(AnswerInALockedDatabase, CanBeVetoedMeanwhile) {
   for (const auto veto : {ConsoleCommandKind::veto, ConsoleCommandKind::veto_answer}) {
     BusySession session;
     const LockDuringAnAnswer lock(session, GetParam());
@@ -271,7 +271,7 @@ TEST_P(AnswerInALockedDatabase, can_be_vetoed_meanwhile) {
 }
 
 // The first failing write is a periodic one; the screen still shows the trial, and is touched.
-TEST(LockedDatabase, takes_an_answer_from_before_the_pause_after_it_unless_its_trial_is_over) {
+TEST(LockedDatabase, TakesAnAnswerFromBeforeThePauseAfterItUnlessItsTrialIsOver) {
   for (const bool is_vetoed : {false, true}) {
     BusySession session;
     int n_left = -1;
@@ -296,7 +296,7 @@ TEST(LockedDatabase, takes_an_answer_from_before_the_pause_after_it_unless_its_t
   }
 }
 
-TEST(LockedDatabase, can_be_held_by_the_experimenter_until_after_the_lock) {
+TEST(LockedDatabase, CanBeHeldByTheExperimenterUntilAfterTheLock) {
   BusySession session;
   const LockDuringAnAnswer lock(session, false);
   int n_held = 0;
@@ -314,7 +314,7 @@ TEST(LockedDatabase, can_be_held_by_the_experimenter_until_after_the_lock) {
   session.expect_to_fold_again();
 }
 
-TEST(LockedDatabase, never_reports_as_done_what_is_not_saved) {
+TEST(LockedDatabase, NeverReportsAsDoneWhatIsNotSaved) {
   BusySession session;
   const LockDuringAnAnswer lock(session, false);
   bool noted = false;
@@ -381,7 +381,7 @@ class RandomMoments {
   bool may_kill_ = true;
 };
 
-TEST(LockedDatabase, at_200_random_moments_leaves_a_log_that_resumes) {
+TEST(LockedDatabase, At200RandomMomentsLeavesALogThatResumes) {
   int n_locked = 0, n_killed = 0;
   std::size_t n_vetoed = 0;
   for (std::uint64_t seed = 1; n_locked < 200 || seed <= 60; ++seed) {

@@ -34,7 +34,7 @@ double degrees_from(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
 }
 
 // The pictures speak for themselves: a tracker finds in them what is drawn over them.
-TEST(Demonstration, shows_a_filmed_effector_under_its_clone_with_two_faces_to_the_camera) {
+TEST(Demonstration, ShowsAFilmedEffectorUnderItsCloneWithTwoFacesToTheCamera) {
   const Protocol protocol;
   Demonstration demonstration(protocol, shipped_apparatus(), 7);
   Tracker tracker(shipped_apparatus());
@@ -57,7 +57,7 @@ TEST(Demonstration, shows_a_filmed_effector_under_its_clone_with_two_faces_to_th
 }
 
 // Cubes are drawn over the film; where the hand is, they are not.
-TEST(Demonstration, never_draws_a_cube_over_the_hand) {
+TEST(Demonstration, NeverDrawsACubeOverTheHand) {
   const Protocol protocol;
   Demonstration demonstration(protocol, shipped_apparatus(), 7);
   ViewSetup setup;
@@ -87,7 +87,7 @@ TEST(Demonstration, never_draws_a_cube_over_the_hand) {
   EXPECT_GT(n_hidden_px, 0) << "nothing was in its way: this test looks at nothing";
 }
 
-TEST(Demonstration, pushes_every_cube_forward_and_none_over) {
+TEST(Demonstration, PushesEveryCubeForwardAndNoneOver) {
   const Protocol protocol;
   const Stage stage = stage_of(protocol, 3);
   Demonstration demonstration(protocol, {}, 7);
@@ -103,7 +103,7 @@ TEST(Demonstration, pushes_every_cube_forward_and_none_over) {
   for (const double each_m : pushed_m) EXPECT_GT(each_m, 0.02);
 }
 
-TEST(Demonstration, never_dips_the_effector_into_the_table) {
+TEST(Demonstration, NeverDipsTheEffectorIntoTheTable) {
   const Protocol protocol;
   Demonstration demonstration(protocol, {}, 7);
   for (double t_s = 0; t_s < 60; t_s += 0.1) {
@@ -116,7 +116,7 @@ TEST(Demonstration, never_dips_the_effector_into_the_table) {
   }
 }
 
-TEST(Demonstration, is_drawn_on_a_plain_table_where_nothing_can_be_filmed) {
+TEST(Demonstration, IsDrawnOnAPlainTableWhereNothingCanBeFilmed) {
   const Protocol protocol;
   Demonstration demonstration(protocol, {}, 7);
   const ViewFrame shown = demonstration.at(3);
@@ -151,14 +151,14 @@ struct Demonstrated {
   RunEnd end;
 };
 
-TEST(Demonstration, is_filmed_for_a_person_at_their_page) {
+TEST(Demonstration, IsFilmedForAPersonAtTheirPage) {
   const Demonstrated session(shipped_apparatus(), true);
   EXPECT_EQ(session.end, RunEnd::finished);
   ASSERT_FALSE(session.shown.empty());
   for (const ViewFrame& picture : session.shown) EXPECT_TRUE(picture.camera);
 }
 
-TEST(Demonstration, is_not_rendered_for_a_model) {
+TEST(Demonstration, IsNotRenderedForAModel) {
   const Protocol protocol;
   Apparatus impossible = shipped_apparatus();
   impossible.board.tags[0].corners_m[0].z() = 0.1;
@@ -183,7 +183,7 @@ SessionOptions options_of(const WhoAnswers& responder, const std::string& tracke
   return options;
 }
 
-TEST(Demonstration, shows_the_printed_board_and_effector_without_a_camera_too) {
+TEST(Demonstration, ShowsThePrintedBoardAndEffectorWithoutACameraToo) {
   const Apparatus shown = demonstrated_with(options_of(Person{}, "hand"), quick_protocol());
   EXPECT_EQ(shown.board.tags.size(), shipped_apparatus().board.tags.size());
   EXPECT_EQ(shown.effector.tags.size(), shipped_apparatus().effector.tags.size());
@@ -195,13 +195,13 @@ TEST(Demonstration, shows_the_printed_board_and_effector_without_a_camera_too) {
   EXPECT_TRUE(box.tags.empty()) << "no print is of that size";
 }
 
-TEST(Demonstration, shows_the_sessions_own_apparatus_where_there_is_one) {
+TEST(Demonstration, ShowsTheSessionsOwnApparatusWhereThereIsOne) {
   const Apparatus shown = demonstrated_with(options_of(Person{}, "synthetic"), quick_protocol());
   EXPECT_EQ(shown.camera.distortion, shipped_apparatus().camera.distortion);
   EXPECT_FALSE(shown.board.tags.empty());
 }
 
-TEST(Demonstration, needs_no_board_where_a_model_takes_part) {
+TEST(Demonstration, NeedsNoBoardWhereAModelTakesPart) {
   EXPECT_TRUE(demonstrated_with(options_of(Plug{"simulated"}, "hand"), quick_protocol())
                   .board.tags.empty());
 }

@@ -204,15 +204,15 @@ void expect_void_and_again(Does what) {
   EXPECT_EQ(session->engine->n_attempts(), 3);
 }
 
-TEST(LiveCamera, that_freezes_pauses_the_trial_then_voids_it_and_it_comes_again) {
+TEST(LiveCamera, ThatFreezesPausesTheTrialThenVoidsItAndItComesAgain) {
   expect_void_and_again(Does::freeze);
 }
 
-TEST(LiveCamera, that_is_unplugged_does_the_same) {
+TEST(LiveCamera, ThatIsUnpluggedDoesTheSame) {
   expect_void_and_again(Does::fail);
 }
 
-TEST(LiveCamera, that_is_back_soon_voids_nothing) {
+TEST(LiveCamera, ThatIsBackSoonVoidsNothing) {
   const auto session = session_with(Does::freeze, films_again_after(event_kind<SessionPaused>), 5);
   EXPECT_EQ(session->run(), RunEnd::finished);
   EXPECT_THAT(session->events(event_kind<SessionPaused>), SizeIs(1));
@@ -221,7 +221,7 @@ TEST(LiveCamera, that_is_back_soon_voids_nothing) {
   EXPECT_EQ(session->engine->n_attempts(), 2);
 }
 
-TEST(LiveCamera, that_does_not_see_the_effector_pauses_nothing) {
+TEST(LiveCamera, ThatDoesNotSeeTheEffectorPausesNothing) {
   const auto lost_and_found = [](LiveSession& session) {
     if (!session.events(event_kind<EffectorLost>).empty()) session.device.does = Does::film;
     return !session.events(event_kind<EffectorFound>).empty();
@@ -236,7 +236,7 @@ TEST(LiveCamera, that_does_not_see_the_effector_pauses_nothing) {
 
 // Nobody asked for pictures while pages were read, or while the session lay still until it was
 // resumed; that is no silence of the camera's.
-TEST(LiveCamera, is_not_lost_because_nobody_asked_it) {
+TEST(LiveCamera, IsNotLostBecauseNobodyAskedIt) {
   LiveSession session(5, patient);
   session.clock.restart(1000);
   EXPECT_EQ(session.run(), RunEnd::finished);
@@ -253,7 +253,7 @@ std::vector<std::string> reasons_of_pauses(const LiveSession& session) {
 constexpr double out_of_view_s = 0.7;  // for longer the board is lost
 
 // The board was out of view while a page was read, and for a moment more.
-TEST(LiveCamera, counts_a_lost_board_from_the_trials_start_on) {
+TEST(LiveCamera, CountsALostBoardFromTheTrialsStartOn) {
   Protocol protocol = quick_protocol();
   const Sorting::Block one{"sorting", {15, 200, 800}, {{"C2", 1}}, 0};
   protocol.blocks = {one, BreakBlock{"break", out_of_view_s}, one};
@@ -282,7 +282,7 @@ TEST(LiveCamera, counts_a_lost_board_from_the_trials_start_on) {
 
 // The same while the experimenter held the trial; and what the camera gave meanwhile was not
 // missed.
-TEST(LiveCamera, counts_a_lost_board_and_drops_from_the_end_of_a_pause_on) {
+TEST(LiveCamera, CountsALostBoardAndDropsFromTheEndOfAPauseOn) {
   double held_since_s = 0;
   std::size_t n_frames = 0;
   bool is_over = false;
@@ -314,7 +314,7 @@ TEST(LiveCamera, counts_a_lost_board_and_drops_from_the_end_of_a_pause_on) {
 
 // Freezes in each attempt until it is void, three times; then somebody has looked, and it freezes
 // once more, for a moment.
-TEST(LiveCamera, that_voided_a_trial_three_times_may_hiccup_after_a_resume) {
+TEST(LiveCamera, ThatVoidedATrialThreeTimesMayHiccupAfterAResume) {
   LiveSession* running = nullptr;
   bool resumed = false, hiccuped = false;
   std::size_t n_voided = 0;
@@ -345,7 +345,7 @@ TEST(LiveCamera, that_voided_a_trial_three_times_may_hiccup_after_a_resume) {
 }
 
 // As --tracker camera:N with a model: its mind sees the frames, its hand is not filmed.
-TEST(LiveCamera, films_while_a_model_answers) {
+TEST(LiveCamera, FilmsWhileAModelAnswers) {
   LiveSession session(5, patient);
   session.hand = responder_named("coin").make({});
   session.answers_themselves = false;
@@ -360,7 +360,7 @@ std::vector<std::string> names_of(const std::vector<CheckResult>& results) {
   return names;
 }
 
-TEST(LiveCamera, is_checked_before_the_session_and_that_is_logged) {
+TEST(LiveCamera, IsCheckedBeforeTheSessionAndThatIsLogged) {
   LiveSession session(5, patient);
   session.run();
   std::vector<std::string> checks;
@@ -372,7 +372,7 @@ TEST(LiveCamera, is_checked_before_the_session_and_that_is_logged) {
 }
 
 // A file is looked at in full before the session, which then has all of its pictures.
-TEST(FileOfPictures, is_checked_before_the_session_too) {
+TEST(FileOfPictures, IsCheckedBeforeTheSessionToo) {
   const test::TemporaryFolder folder;
   for (std::size_t i = 0; i < n_pictures; ++i)
     write_image(folder.file(std::to_string(i) + ".png"), with_effector()[i]);
@@ -394,7 +394,7 @@ TEST(FileOfPictures, is_checked_before_the_session_too) {
   EXPECT_TRUE(pictures->ended());
 }
 
-TEST(RenderedPictures, are_checked_as_a_cameras) {
+TEST(RenderedPictures, AreCheckedAsACameras) {
   const auto protocol = shared(quick_protocol());
   const SessionClock clock = SessionClock::wall_from(0);
   const auto hand = responder_named("simulated").make({});
@@ -406,7 +406,7 @@ TEST(RenderedPictures, are_checked_as_a_cameras) {
     }
 }
 
-TEST(PicturesOfAModelsHand, count_those_that_came_too_late_to_be_made) {
+TEST(PicturesOfAModelsHand, CountThoseThatCameTooLateToBeMade) {
   const Protocol protocol = quick_protocol();
   const auto hand = responder_named("simulated").make({});
   hand->begin_trial({1, 1, "sorting", stage_of(protocol, 3)});
@@ -423,7 +423,7 @@ TEST(PicturesOfAModelsHand, count_those_that_came_too_late_to_be_made) {
 }
 
 // Names of verdicts reach the log as they are called here.
-TEST(Check, is_logged_by_its_verdicts_name) {
+TEST(Check, IsLoggedByItsVerdictsName) {
   EXPECT_EQ(row_of({0, CheckResult{CheckVerdict::warning, "light", "too dark"}}).detail,
             R"({"name":"light","verdict":"warning","finding":"too dark"})");
 }

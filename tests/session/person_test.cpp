@@ -58,7 +58,7 @@ struct Session {
   ScreenTexts texts = load_texts(source_folder() + "/protocols/texts/fr.toml");
 };
 
-TEST(Person, goes_through_all_pages_and_trials) {
+TEST(Person, GoesThroughAllPagesAndTrials) {
   Session session(every_page_protocol());
   EXPECT_EQ(session.run(), RunEnd::finished);
   EXPECT_THAT(
@@ -75,7 +75,7 @@ TEST(Person, goes_through_all_pages_and_trials) {
   EXPECT_GE(session.events(event_kind<BreakTaken>).at(0).as<BreakTaken>()->duration_s, 0.1);
 }
 
-TEST(Person, who_does_not_agree_takes_no_part) {
+TEST(Person, WhoDoesNotAgreeTakesNoPart) {
   Protocol protocol = quick_protocol();
   protocol.screens.consent = true;
   Session session(protocol, [](const ViewFrame&, const ScreenState&) {
@@ -86,7 +86,7 @@ TEST(Person, who_does_not_agree_takes_no_part) {
   EXPECT_EQ(session.engine.n_attempts(), 0);
 }
 
-TEST(Person, answers_are_logged_at_the_time_of_the_touch_and_shown_at_once) {
+TEST(Person, AnswersAreLoggedAtTheTimeOfTheTouchAndShownAtOnce) {
   Session session(quick_protocol());
   session.run();
   const auto actions = session.events(event_kind<Action>);
@@ -97,7 +97,7 @@ TEST(Person, answers_are_logged_at_the_time_of_the_touch_and_shown_at_once) {
   for (std::size_t i = 1; i < actions.size(); ++i) EXPECT_GE(actions[i].t_s, actions[i - 1].t_s);
 }
 
-TEST(Person, a_touch_that_can_not_be_taken_is_kept_as_refused_and_ends_nothing) {
+TEST(Person, ATouchThatCanNotBeTakenIsKeptAsRefusedAndEndsNothing) {
   bool tried = false;
   Session session(quick_protocol(), [&](const ViewFrame& picture, const ScreenState& screen) {
     if (screen.screen == Screen::trial && screen.can_answer && !tried) {
@@ -114,7 +114,7 @@ TEST(Person, a_touch_that_can_not_be_taken_is_kept_as_refused_and_ends_nothing) 
 }
 
 // As the second tap of two would be that comes through while the page turns.
-TEST(Person, a_touch_on_the_page_before_means_nothing_on_this_one) {
+TEST(Person, ATouchOnThePageBeforeMeansNothingOnThisOne) {
   PageId before;
   int n_late = 0;
   Session session(quick_protocol(), [&](const ViewFrame& picture, const ScreenState& screen) {
@@ -134,7 +134,7 @@ TEST(Person, a_touch_on_the_page_before_means_nothing_on_this_one) {
   EXPECT_THAT(session.events(event_kind<ActionRefused>), IsEmpty());
 }
 
-TEST(Person, what_they_tell_about_themselves_is_kept) {
+TEST(Person, WhatTheyTellAboutThemselvesIsKept) {
   Protocol protocol = quick_protocol();
   protocol.screens.about_you = true;
   bool told = false;
@@ -152,7 +152,7 @@ TEST(Person, what_they_tell_about_themselves_is_kept) {
   EXPECT_EQ(session.sink.header().participant_info.at("handedness"), "left");
 }
 
-TEST(Person, the_cubes_go_back_at_a_touch) {
+TEST(Person, TheCubesGoBackAtATouch) {
   bool asked = false;
   Session session(quick_protocol(), [&](const ViewFrame& picture, const ScreenState& screen) {
     if (screen.screen == Screen::trial && screen.can_answer && !asked) {
@@ -167,7 +167,7 @@ TEST(Person, the_cubes_go_back_at_a_touch) {
       << "all of them, by the button";
 }
 
-TEST(Person, who_closes_the_window_can_come_back) {
+TEST(Person, WhoClosesTheWindowCanComeBack) {
   Session session(quick_protocol(), [](const ViewFrame& picture, const ScreenState& screen) {
     return screen.screen == Screen::trial && !picture.frame.cubes.empty()
                ? std::vector{touch(TouchKind::close)}
@@ -179,7 +179,7 @@ TEST(Person, who_closes_the_window_can_come_back) {
             void_interrupted);
 }
 
-TEST(Person, every_picture_has_its_times) {
+TEST(Person, EveryPictureHasItsTimes) {
   Session session(quick_protocol());
   session.run();
   ASSERT_THAT(session.frames(), Not(IsEmpty()));
@@ -204,7 +204,7 @@ struct ScriptedConsole : MadeUpConsole {
   std::deque<ConsoleCommand> to_come;
 };
 
-TEST(Experimenter, holds_the_session_and_lets_it_go_on) {
+TEST(Experimenter, HoldsTheSessionAndLetsItGoOn) {
   ScriptedConsole console({{ConsoleCommandKind::pause, {}}, {ConsoleCommandKind::go_on, {}}});
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&console), RunEnd::finished);
@@ -219,7 +219,7 @@ TEST(Experimenter, holds_the_session_and_lets_it_go_on) {
 }
 
 // Every status is held against what stood on the screen when it was shown.
-TEST(Experimenter, sees_which_page_it_is_and_that_only_trials_are_tracked) {
+TEST(Experimenter, SeesWhichPageItIsAndThatOnlyTrialsAreTracked) {
   Session session(every_page_protocol());
   MadeUpConsole console;
   int n_tracked = 0;
@@ -236,7 +236,7 @@ TEST(Experimenter, sees_which_page_it_is_and_that_only_trials_are_tracked) {
   EXPECT_GT(n_tracked, 0);
 }
 
-TEST(Experimenter, sees_nothing_tracked_while_the_session_is_held) {
+TEST(Experimenter, SeesNothingTrackedWhileTheSessionIsHeld) {
   ScriptedConsole console({{ConsoleCommandKind::pause, {}}, {ConsoleCommandKind::go_on, {}}});
   Session session(quick_protocol());
   session.run(&console);
@@ -289,7 +289,7 @@ class FailedCheck : public ::testing::Test {
   bool go_on_unchecked = false;
 };
 
-TEST_F(FailedCheck, is_asked_about_and_the_session_begins_when_the_experimenter_says_so) {
+TEST_F(FailedCheck, IsAskedAboutAndTheSessionBeginsWhenTheExperimenterSaysSo) {
   console.answer = ConsoleCommandKind::go_on;
   console.on_show = [&](const ConsoleStatus& status) {
     EXPECT_EQ(status.screen.has_value(), !session.screen.screens.empty());
@@ -301,7 +301,7 @@ TEST_F(FailedCheck, is_asked_about_and_the_session_begins_when_the_experimenter_
   EXPECT_LE(session.events(event_kind<Note>)[0].t_s, session.events(event_kind<TextShown>)[0].t_s);
 }
 
-TEST_F(FailedCheck, leaves_the_session_to_be_resumed_when_they_do_not) {
+TEST_F(FailedCheck, LeavesTheSessionToBeResumedWhenTheyDoNot) {
   console.answer = ConsoleCommandKind::end;
   EXPECT_EQ(run(), RunEnd::stopped);
   EXPECT_THAT(session.screen.screens, IsEmpty());
@@ -310,7 +310,7 @@ TEST_F(FailedCheck, leaves_the_session_to_be_resumed_when_they_do_not) {
   EXPECT_EQ(session.engine.state(), SessionState::paused);
 }
 
-TEST_F(FailedCheck, ends_the_session_to_be_resumed_where_nobody_can_be_asked) {
+TEST_F(FailedCheck, EndsTheSessionToBeResumedWhereNobodyCanBeAsked) {
   try {
     run();
     ADD_FAILURE() << "it went on";
@@ -324,14 +324,14 @@ TEST_F(FailedCheck, ends_the_session_to_be_resumed_where_nobody_can_be_asked) {
   EXPECT_EQ(session.engine.state(), SessionState::paused);
 }
 
-TEST_F(FailedCheck, is_gone_over_where_nobody_can_be_asked_and_that_was_asked_for) {
+TEST_F(FailedCheck, IsGoneOverWhereNobodyCanBeAskedAndThatWasAskedFor) {
   go_on_unchecked = true;
   EXPECT_EQ(run(), RunEnd::finished);
   EXPECT_THAT(notes(),
               ElementsAre("failed check: board; without an experimenter the session continues"));
 }
 
-TEST_F(FailedCheck, is_made_again_until_it_succeeds) {
+TEST_F(FailedCheck, IsMadeAgainUntilItSucceeds) {
   console.answer = ConsoleCommandKind::check;
   n_failures = 3;
   EXPECT_EQ(run(), RunEnd::finished);
@@ -340,7 +340,7 @@ TEST_F(FailedCheck, is_made_again_until_it_succeeds) {
   EXPECT_THAT(notes(), IsEmpty());
 }
 
-TEST_F(FailedCheck, can_be_left_by_closing_the_window) {
+TEST_F(FailedCheck, CanBeLeftByClosingTheWindow) {
   class Silent : public MadeUpConsole {
     bool ask_to_go_on(const std::string&) override { return true; }
   } silent;
@@ -358,7 +358,7 @@ TEST_F(FailedCheck, can_be_left_by_closing_the_window) {
   EXPECT_THAT(other.screen.screens, IsEmpty());
 }
 
-TEST(Experimenter, vetoes_a_trial_and_it_comes_again) {
+TEST(Experimenter, VetoesATrialAndItComesAgain) {
   ScriptedConsole console({{ConsoleCommandKind::veto, "disturbance"}});
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&console), RunEnd::finished);
@@ -373,7 +373,7 @@ Protocol comparing_protocol() {
   return testing::comparing_alone(quick_protocol());
 }
 
-TEST(Experimenter, takes_the_last_answer_back_and_its_trial_comes_again) {
+TEST(Experimenter, TakesTheLastAnswerBackAndItsTrialComesAgain) {
   Session session(comparing_protocol());
   MadeUpConsole console;
   bool vetoed = false;
@@ -393,7 +393,7 @@ TEST(Experimenter, takes_the_last_answer_back_and_its_trial_comes_again) {
   EXPECT_EQ(session.engine.n_attempts(), 5) << "with the one that had begun, and the one again";
 }
 
-TEST(Person, who_declines_by_mistake_can_take_it_back) {
+TEST(Person, WhoDeclinesByMistakeCanTakeItBack) {
   Protocol protocol = quick_protocol();
   protocol.screens.consent = true;
   bool declined = false;
@@ -426,7 +426,7 @@ RunEnd go_on(Session& session, RecordedSession& sink) {
   return Runner(parts, {}).run();
 }
 
-TEST(Person, who_comes_back_meets_no_page_again_that_they_were_through_with) {
+TEST(Person, WhoComesBackMeetsNoPageAgainThatTheyWereThroughWith) {
   Protocol protocol = every_page_protocol();
   bool closes = true;
   const auto person = [&](const ViewFrame& picture, const ScreenState& screen) {
@@ -448,7 +448,7 @@ TEST(Person, who_comes_back_meets_no_page_again_that_they_were_through_with) {
   EXPECT_THAT(session.screen.screens.at(0).entries, ElementsAre(std::pair("age", "25_34")));
 }
 
-TEST(Person, who_comes_back_in_the_middle_of_a_block_is_not_instructed_again) {
+TEST(Person, WhoComesBackInTheMiddleOfABlockIsNotInstructedAgain) {
   Protocol protocol = comparing_protocol();
   auto second = *block_as<Comparison::Block>(protocol.blocks.front());
   second.name = "again";
@@ -469,7 +469,7 @@ TEST(Person, who_comes_back_in_the_middle_of_a_block_is_not_instructed_again) {
       << "of the next block they are";
 }
 
-TEST(Person, reads_instructions_again_that_they_were_in_the_middle_of) {
+TEST(Person, ReadsInstructionsAgainThatTheyWereInTheMiddleOf) {
   bool closes = true;
   Session session(comparing_protocol(), [&](const ViewFrame& picture, const ScreenState& screen) {
     if (screen.screen != Screen::instructions || !std::exchange(closes, false))
@@ -499,7 +499,7 @@ TEST(ResumeState, ABreakIsOverWhenItWasTakenOrTheTrialIsThere) {
   EXPECT_FALSE(resume_state({shown("rest"), shown("trial_sorting")}, {}).in_break);
 }
 
-TEST(Experimenter, notes_takes_a_break_and_ends) {
+TEST(Experimenter, NotesTakesABreakAndEnds) {
   ScriptedConsole console({{ConsoleCommandKind::note, "door slammed"},
                            {ConsoleCommandKind::rest, {}},
                            {ConsoleCommandKind::end, {}}});
@@ -509,14 +509,14 @@ TEST(Experimenter, notes_takes_a_break_and_ends) {
   EXPECT_EQ(session.engine.state(), SessionState::paused);
 }
 
-TEST(Experimenter, gets_the_break_that_was_asked_for) {
+TEST(Experimenter, GetsTheBreakThatWasAskedFor) {
   ScriptedConsole console({{ConsoleCommandKind::rest, {}}});
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&console), RunEnd::finished);
   EXPECT_EQ(session.events(event_kind<BreakTaken>).at(0).as<BreakTaken>()->name, "asked for");
 }
 
-TEST(Person, who_comes_back_takes_the_break_that_was_asked_for_and_not_ended) {
+TEST(Person, WhoComesBackTakesTheBreakThatWasAskedForAndNotEnded) {
   ScriptedConsole console({{ConsoleCommandKind::rest, {}}});
   bool closes = true;
   Session session(quick_protocol(), [&](const ViewFrame& picture, const ScreenState& screen) {
@@ -533,7 +533,7 @@ TEST(Person, who_comes_back_takes_the_break_that_was_asked_for_and_not_ended) {
             "asked for");
 }
 
-TEST(Experimenter, is_blind_until_they_unblind_themselves) {
+TEST(Experimenter, IsBlindUntilTheyUnblindThemselves) {
   ScriptedConsole console({{ConsoleCommandKind::unblind, {}}});
   Session session(quick_protocol());
   session.run(&console);

@@ -127,7 +127,7 @@ low = "Easy"
 high = "Hard"
 )";
 
-TEST_F(Resumed, after_a_person_a_model_goes_on_and_nobody_takes_it_for_a_persons) {
+TEST_F(Resumed, AfterAPersonAModelGoesOnAndNobodyTakesItForAPersons) {
   start_as_a_person();
   EXPECT_FALSE(analysed().simulated());
   EXPECT_EQ(go_on_with(a_model("simulated"), 1000).end, RunEnd::finished);
@@ -137,7 +137,7 @@ TEST_F(Resumed, after_a_person_a_model_goes_on_and_nobody_takes_it_for_a_persons
   EXPECT_EQ(analysed().participant(), "1 (simulated)");
 }
 
-TEST_F(Resumed, what_people_read_stays_with_its_questionnaires_whatever_else_changes) {
+TEST_F(Resumed, WhatPeopleReadStaysWithItsQuestionnairesWhateverElseChanges) {
   start_as_a_person(questionnaire);
   SessionOptions display, board, words;
   display.display = NamedDisplay{1};
@@ -152,7 +152,7 @@ TEST_F(Resumed, what_people_read_stays_with_its_questionnaires_whatever_else_cha
   EXPECT_EQ(resolved(session, words)->config.language, "fr") << "but for words that are given";
 }
 
-TEST_F(Resumed, one_model_follows_the_other) {
+TEST_F(Resumed, OneModelFollowsTheOther) {
   start();
   ASSERT_EQ(go_on_with(a_model("coin"), 4).end, RunEnd::stopped);
   EXPECT_EQ(go_on_with(a_model("simulated"), 1000).end, RunEnd::finished);
@@ -161,7 +161,7 @@ TEST_F(Resumed, one_model_follows_the_other) {
   EXPECT_TRUE(analysed().simulated());
 }
 
-TEST_F(Resumed, another_simulator_is_in_force_from_there_on) {
+TEST_F(Resumed, AnotherSimulatorIsInForceFromThereOn) {
   start();
   SessionOptions given;
   given.simulator = "bullet-ea";
@@ -174,7 +174,7 @@ TEST_F(Resumed, another_simulator_is_in_force_from_there_on) {
   EXPECT_EQ(changes_between(setups[0].setup, setups[1].setup).front().column, "simulator");
 }
 
-TEST_F(Resumed, what_is_given_again_as_it_was_is_not_told_again) {
+TEST_F(Resumed, WhatIsGivenAgainAsItWasIsNotToldAgain) {
   start();
   SessionOptions given = a_model("simulated");
   given.simulator = request.config->config.simulator;
@@ -184,7 +184,7 @@ TEST_F(Resumed, what_is_given_again_as_it_was_is_not_told_again) {
 }
 
 // A crash right after the start must leave a session that says what it is run with.
-TEST_F(Resumed, the_first_setup_is_in_the_file_as_soon_as_the_session) {
+TEST_F(Resumed, TheFirstSetupIsInTheFileAsSoonAsTheSession) {
   Engine engine(request.config->protocol, seed);
   const Event told{0, request.config->config};
   SessionHeader header;
@@ -196,14 +196,14 @@ TEST_F(Resumed, the_first_setup_is_in_the_file_as_soon_as_the_session) {
   EXPECT_EQ(LogReader(request.db).first_broken_digest(1), std::nullopt);
 }
 
-TEST_F(Resumed, a_session_without_a_trial_says_what_it_is_run_with) {
+TEST_F(Resumed, ASessionWithoutATrialSaysWhatItIsRunWith) {
   ASSERT_EQ(start_session(request, until(0)).end, RunEnd::stopped);
   EXPECT_EQ(load_session(LogReader(request.db), request.db, 1).setup, request.config->config);
   EXPECT_EQ(go_on_with({}, 1000).end, RunEnd::finished);
   expect_verified();
 }
 
-TEST_F(Resumed, is_no_log_that_is_not_as_it_was_written) {
+TEST_F(Resumed, IsNoLogThatIsNotAsItWasWritten) {
   for (const char* sql : {"UPDATE session SET run_options = '{}'", "CREATE TABLE loot (text TEXT)",
                           "CREATE VIEW loot AS SELECT 1 AS one",
                           "CREATE TRIGGER loot AFTER INSERT ON event BEGIN DELETE FROM answer; END",

@@ -129,7 +129,7 @@ struct Bench {
   Nothing view;
 };
 
-TEST(Runner, runs_a_whole_session_to_its_end) {
+TEST(Runner, RunsAWholeSessionToItsEnd) {
   Bench bench(small_protocol());
   EXPECT_EQ(bench.run(), RunEnd::finished);
   EXPECT_EQ(bench.engine.state(), SessionState::finished);
@@ -138,7 +138,7 @@ TEST(Runner, runs_a_whole_session_to_its_end) {
   EXPECT_EQ(bench.events(event_kind<BreakTaken>)[0].as<BreakTaken>()->duration_s, 60);
 }
 
-TEST(Runner, every_displayed_picture_is_a_frame_at_the_display_rate) {
+TEST(Runner, EveryDisplayedPictureIsAFrameAtTheDisplayRate) {
   Bench bench;
   bench.run();
   const auto frames = bench.frames();
@@ -149,7 +149,7 @@ TEST(Runner, every_displayed_picture_is_a_frame_at_the_display_rate) {
     }
 }
 
-TEST(Runner, an_effector_out_of_view_voids_nothing_and_hides_the_clone) {
+TEST(Runner, AnEffectorOutOfViewVoidsNothingAndHidesTheClone) {
   Bench bench(two_trials(), [](int, double t_s, Picture& picture) {
     picture.sample.tracked = t_s < 0.3 || t_s > 0.7;
   });
@@ -164,7 +164,7 @@ TEST(Runner, an_effector_out_of_view_voids_nothing_and_hides_the_clone) {
   for (const TrialRow& row : bench.trials()) EXPECT_NEAR(row.lost_s, 0.4, 0.07);
 }
 
-TEST(Runner, a_model_does_not_wait_for_ever_for_an_effector_that_is_never_seen) {
+TEST(Runner, AModelDoesNotWaitForEverForAnEffectorThatIsNeverSeen) {
   for (const bool is_board_lost : {false, true}) {
     Bench bench(two_trials(), [is_board_lost](int, double, Picture& picture) {
       picture.sample.tracked = false;
@@ -180,7 +180,7 @@ TEST(Runner, a_model_does_not_wait_for_ever_for_an_effector_that_is_never_seen) 
   }
 }
 
-TEST(Runner, a_short_camera_loss_pauses_the_trial_and_it_goes_on) {
+TEST(Runner, AShortCameraLossPausesTheTrialAndItGoesOn) {
   Bench bench(two_trials(), [](int attempt, double t_s, Picture& picture) {
     if (attempt == 1 && t_s > 0.3 && t_s < 3) picture.trouble = "camera_lost";
   });
@@ -191,7 +191,7 @@ TEST(Runner, a_short_camera_loss_pauses_the_trial_and_it_goes_on) {
   EXPECT_NEAR(bench.trials()[0].paused_s, 2.7, 0.1);
 }
 
-TEST(Runner, a_long_camera_loss_voids_the_trial_and_presents_it_again_when_pictures_return) {
+TEST(Runner, ALongCameraLossVoidsTheTrialAndPresentsItAgainWhenPicturesReturn) {
   Bench bench(two_trials(), [](int attempt, double t_s, Picture& picture) {
     if (attempt == 1 && t_s > 0.3 && t_s < 8) picture.trouble = "board_lost";
   });
@@ -206,7 +206,7 @@ TEST(Runner, a_long_camera_loss_voids_the_trial_and_presents_it_again_when_pictu
   EXPECT_NEAR(trials[1].started_s, 8, 0.1) << "only once pictures are back";
 }
 
-TEST(Runner, three_voids_of_one_trial_pause_the_session) {
+TEST(Runner, ThreeVoidsOfOneTrialPauseTheSession) {
   Bench bench(two_trials(), [](int, double t_s, Picture& picture) {
     if (t_s > 0.3 && t_s < 6) picture.trouble = "camera_lost";
   });
@@ -215,7 +215,7 @@ TEST(Runner, three_voids_of_one_trial_pause_the_session) {
   EXPECT_EQ(bench.engine.state(), SessionState::paused);
 }
 
-TEST(Runner, cubes_appear_only_once_the_effector_is_clear_of_them) {
+TEST(Runner, CubesAppearOnlyOnceTheEffectorIsClearOfThem) {
   Bench bench(two_trials(), [](int, double t_s, Picture& picture) {
     picture.sample.pose = hand_at(0, t_s < 1 ? -0.06 : -0.2);
   });
@@ -227,7 +227,7 @@ TEST(Runner, cubes_appear_only_once_the_effector_is_clear_of_them) {
   }
 }
 
-TEST(Runner, a_pushed_cube_that_leaves_its_area_comes_back_once_untouched) {
+TEST(Runner, APushedCubeThatLeavesItsAreaComesBackOnceUntouched) {
   // Through the middle cube's place, 25 cm forward and back, then off to the side.
   const auto push = [](int, double t_s, Picture& picture) {
     const double y_m = t_s < 0.2 ? -0.15 : t_s < 0.6 ? -0.15 + 0.7 * (t_s - 0.2) : -0.15;
@@ -249,7 +249,7 @@ TEST(Runner, a_pushed_cube_that_leaves_its_area_comes_back_once_untouched) {
     EXPECT_THAT(frame.contact_slot, AnyOf(std::nullopt, 2));
 }
 
-TEST(Runner, all_cubes_go_back_at_once_where_the_protocol_says_so) {
+TEST(Runner, AllCubesGoBackAtOnceWhereTheProtocolSaysSo) {
   const auto push = [](int, double t_s, Picture& picture) {
     const double y_m = t_s < 0.2 ? -0.15 : t_s < 0.6 ? -0.15 + 0.7 * (t_s - 0.2) : 0.13;
     picture.sample.pose = hand_at(0, t_s < 1.2 ? y_m : -0.15);
@@ -268,7 +268,7 @@ TEST(Runner, all_cubes_go_back_at_once_where_the_protocol_says_so) {
   for (const Pose& cube : bench.view.frames.back().cubes) EXPECT_NEAR(cube.position_m.y(), 0, 1e-6);
 }
 
-TEST(Runner, cubes_stay_where_the_protocol_says_so) {
+TEST(Runner, CubesStayWhereTheProtocolSaysSo) {
   Protocol protocol = two_trials();
   protocol.layout.area_m = {0.4, 0.16};
   protocol.layout.out_of_area = OutOfArea::stay;
@@ -280,7 +280,7 @@ TEST(Runner, cubes_stay_where_the_protocol_says_so) {
   EXPECT_GT(bench.view.frames.back().cubes[1].position_m.y(), 0.08);
 }
 
-TEST(Runner, an_action_that_the_screen_does_not_offer_stops_the_session_and_is_named) {
+TEST(Runner, AnActionThatTheScreenDoesNotOfferStopsTheSessionAndIsNamed) {
   class Wrong final : public Resting {
     std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState&) override {
       return {{{"validate", {}, {}}, frame.t_s}};
@@ -298,7 +298,7 @@ TEST(Runner, an_action_that_the_screen_does_not_offer_stops_the_session_and_is_n
   EXPECT_EQ(bench.trials()[0].void_reason, "interrupted");
 }
 
-TEST(Runner, a_stop_leaves_a_session_that_can_be_resumed) {
+TEST(Runner, AStopLeavesASessionThatCanBeResumed) {
   std::atomic<bool> stop{false};
   Bench bench(two_trials(), [&](int attempt, double t_s, Picture&) {
     if (attempt == 2 && t_s > 0.5) stop = true;
@@ -314,7 +314,7 @@ TEST(Runner, a_stop_leaves_a_session_that_can_be_resumed) {
   EXPECT_EQ(bench.engine.n_completed(), 2);
 }
 
-TEST(Runner, a_reshuffled_introduction_shows_new_cubes_once_the_effector_is_clear) {
+TEST(Runner, AReshuffledIntroductionShowsNewCubesOnceTheEffectorIsClear) {
   Protocol protocol = small_protocol();
   Introduction::Block introduction{"introduction", {15, 800}};
   introduction.wrong_answer = WrongAnswer::reshuffle;

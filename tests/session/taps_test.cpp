@@ -90,7 +90,7 @@ class DoubleTapper {
   std::optional<Tap> second_;
 };
 
-TEST(Taps, a_double_tap_on_any_button_of_any_page_does_one_thing) {
+TEST(Taps, ADoubleTapOnAnyButtonOfAnyPageDoesOneThing) {
   std::set<std::string> tapped;
   for (std::uint64_t seed = 1; seed <= 16; ++seed) {
     SCOPED_TRACE(seed);
@@ -138,7 +138,7 @@ class WildTapper {
   int* n_taps_;
 };
 
-TEST(Taps, of_two_thousand_wild_ones_none_answers_unseen_cubes) {
+TEST(Taps, OfTwoThousandWildOnesNoneAnswersUnseenCubes) {
   Protocol protocol = testing::whole_protocol(15, 6);
   protocol.screens = {"en", false, false, false};
   int n_taps = 0;

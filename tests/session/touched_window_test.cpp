@@ -167,7 +167,7 @@ class TouchedWindow : public ::testing::Test {
   std::optional<FingersOnTheWindow> fingers;
 };
 
-TEST_F(TouchedWindow, takes_a_person_through_a_whole_session) {
+TEST_F(TouchedWindow, TakesAPersonThroughAWholeSession) {
   ASSERT_EQ(run(), RunEnd::finished);
   EXPECT_EQ(engine.state(), SessionState::finished);
   EXPECT_EQ(engine.n_completed(), 2 + 1 + 4);

@@ -75,7 +75,7 @@ class VetoedLog : public ::testing::Test {
                                ("heft-vetoed-" + std::to_string(::getpid()) + ".db");
 };
 
-TEST_F(VetoedLog, is_verified_and_holds_no_row_of_what_was_taken_back) {
+TEST_F(VetoedLog, IsVerifiedAndHoldsNoRowOfWhatWasTakenBack) {
   ToldSession session(load_protocol(source_folder() + "/protocols/quick.toml"));
   int n_vetoed = 0, n_estimates_taken_back = 0;
   bool yes = true;
