@@ -143,7 +143,7 @@ std::string short_help_of(const CommandDescription& command, std::size_t width) 
   for (const OptionDescription& option : command.options) {
     if (option.is_general) continue;
     const std::string line = line_of(left_of(option), option.help, width);
-    const bool has_room = std::ranges::count(options + line, '\n') <= 10;
+    const bool has_room = std::ranges::count(options + line, '\n') <= 9;
     if (others.empty() && (option.by_place || option.group == "Options") && has_room)
       options += line;
     else

@@ -83,13 +83,13 @@ void add_session_options(Command& command, SessionOptions& given, bool stay) {
   command.group(stay ? "Changes from here on (the rest is kept)" : "Responder, tracker and view");
   add_responder(
       command, given.responder,
-      with_default("human, or a model: NAME or NAME:FILE (heft doctor lists them)", "human", stay));
+      with_default("human, or a model: NAME or NAME:FILE (heft doctor --list)", "human", stay));
   add_plug(
       command, "--tracker", given.tracker,
       with_default(
           "source of effector poses: camera:N, video:FILE, frames:FOLDER, synthetic (a "
-          "rendered camera films a model's hand; synthetic:FILE.toml sets its imperfections, see "
-          "protocols/apparatus/synthetic_camera.toml), hand (that hand's true pose), "
+          "rendered camera films a model's hand; synthetic:FILE.toml sets its imperfections), hand "
+          "(that hand's true pose), "
           "mouse (the participant drags the effector in the window with the mouse or a finger and "
           "turns it "
           "with the wheel: for trying and teaching without printed tags)",
@@ -101,7 +101,7 @@ void add_session_options(Command& command, SessionOptions& given, bool stay) {
   add_files_of_apparatus(command, given, stay);
   command.add_option(
       "--display",
-      reads("--display", given.display, "the number of a display, from 0 (heft doctor lists them)"),
+      reads("--display", given.display, "the number of a display, from 0 (heft doctor --list)"),
       with_default("the number of the display that the window is on (heft doctor "
                    "lists them)",
                    "0", stay));

@@ -22,7 +22,8 @@ ShownFrame AttemptReplay::advance(const FrameRow& frame) {
   sample.jump = frame.jump;
   ShownFrame shown = world_.advance(sample);
   // As the runner logs them: cubes_shown after the other events of the frame.
-  std::ranges::stable_partition(shown.events, [](const Event& e) { return !e.as<CubesShown>(); });
+  std::stable_partition(shown.events.begin(), shown.events.end(),
+                        [](const Event& e) { return !e.as<CubesShown>(); });
   for (Event event : shown.events) {
     event.t_s += attempt_.row.started_s;
     derived_.push_back(event);

@@ -62,7 +62,8 @@ Eigen::AlignedBox3d working_box(const Protocol& protocol) {
 std::shared_ptr<DraggedEffector> dragged_effector(const ResolvedConfig& resolved) {
   constexpr double hover_m = 0.005;
   if (!resolved->tracker->is_dragged) return {};
-  return std::make_shared<DraggedEffector>(resting_pose(stage_of(*resolved->protocol, 3), hover_m));
+  return std::make_shared<DraggedEffector>(
+      DraggedEffector{resting_pose(stage_of(*resolved->protocol, 3), hover_m)});
 }
 
 ViewSetup view_setup(const ResolvedConfig& resolved) {

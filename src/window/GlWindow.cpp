@@ -50,6 +50,11 @@ void explain_lost_display() {
     reinterpret_cast<SetHandler>(function)(on_lost_display);
 }
 
+// SDL's own attempt prints messages of the window system's libraries.
+bool has_desktop() {
+  return SDL_getenv("DISPLAY") || SDL_getenv("WAYLAND_DISPLAY") || SDL_getenv("SDL_VIDEODRIVER");
+}
+
 // Without a display SDL draws into memory, which is only accepted if its driver was requested by
 // name.
 bool draws_into_memory() {
@@ -85,7 +90,7 @@ void require_display(int number) {
   if (n <= 0) throw no_display("no display");
   if (number < n) return;
   throw Error(fmt::format("there is no display {}: this machine has {}, numbered from 0 (heft "
-                          "doctor lists them)",
+                          "doctor prints them)",
                           number, n),
               ExitCode::device_missing);
 }
@@ -113,8 +118,9 @@ SDL_Window* window_on(const WindowChoice& choice, const char* title) {
 struct GlWindow::Video {
   Video() {
     set_hints();
-    if (SDL_InitSubSystem(SDL_INIT_VIDEO | SDL_INIT_EVENTS) != 0) throw no_display("no display");
-    if (draws_into_memory()) {
+    if (has_desktop() && SDL_InitSubSystem(SDL_INIT_VIDEO | SDL_INIT_EVENTS) != 0)
+      throw no_display("no display");
+    if (!has_desktop() || draws_into_memory()) {
       SDL_SetError("neither X nor Wayland is running");
       SDL_QuitSubSystem(SDL_INIT_VIDEO | SDL_INIT_EVENTS);
       throw no_display("no display");
@@ -191,7 +197,7 @@ int touch_devices() {
 
 std::vector<DisplayFacts> displays() {
   std::vector<DisplayFacts> all;
-  if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return all;
+  if (!has_desktop() || SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return all;
   for (int i = 0; i < SDL_GetNumVideoDisplays() && !draws_into_memory(); ++i)
     all.push_back(facts_of(i));
   SDL_QuitSubSystem(SDL_INIT_VIDEO);

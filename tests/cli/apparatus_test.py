@@ -187,7 +187,7 @@ class Apparatus(unittest.TestCase):
         for more, code, message in (
             (("--size", "1280"), 2, "expected width and height in pixels, as in 1280x720"),
             (("--size", "0x0"), 2, "as in 1280x720"),
-            (("--size", "1280x720"), 1, "gives pictures of 64 x 48 pixels; leave --size out"),
+            (("--size", "1280x720"), 1, "gives pictures of 64 x 48 pixels; omit --size"),
             (("--exposure-ms", "400"), 2, "expected 0.1 to 100 ms"),
             (("--exposure-ms", "nan"), 2, "expected 0.1 to 100 ms"),
             (("--exposure-ms", "4"), 2, "it sets live cameras only"),
@@ -209,7 +209,7 @@ class Apparatus(unittest.TestCase):
                             frames / name], check=True)
         run = self.calibrate_camera(f"frames:{frames}")
         self.assertEqual((run.returncode, run.stdout), (1, ""))
-        self.assertIn("of 8 picture(s) 1 were kept; 7 are too much like one", run.stderr)
+        self.assertIn("of 8 picture(s) 1 were kept; 7 are too similar to one", run.stderr)
         self.assertIn("at least 5", run.stderr)
         for missing in ("tilt the board", "nearer and farther", "19 more views"):
             self.assertIn(missing, run.stderr)
@@ -235,7 +235,7 @@ class Apparatus(unittest.TestCase):
         run = self.heft(*arguments)
         self.assertEqual(run.returncode, 1)
         self.assertIn("0 picture(s) show two or more", run.stderr)
-        self.assertIn("tag 30, 31, 32, 33, 34", run.stderr)
+        self.assertIn("too rarely beside another tag: 30, 31, 32, 33, 34", run.stderr)
         self.assertFalse((self.folder / "e.toml").exists())
         subprocess.run(["pdftoppm", "-r", "60", "-f", "1", "-singlefile", "-png", pdf,
                         frames / "a"], check=True)

@@ -235,7 +235,7 @@ class Console(AtAConsole):
         self.terminal.press("x4")  # that of the introduction
         self.assertTrue(self.terminal.wait_for(lambda: self.n("answer_vetoed") == 1))
         self.terminal.press("x4")
-        self.shows("no trial was answered")
+        self.shows("there is no answered trial")
         self.terminal.press("r")
         self.terminal.press("ey")
         self.assertTrue(self.terminal.wait_for(lambda: self.terminal.program.poll() is not None))
@@ -291,7 +291,7 @@ class DemonstrationAlone(AtAConsole):
             return page and page[1] == "thanks"
         self.assertTrue(self.terminal.wait_for(is_last_page), self.terminal.shown)
         self.terminal.press("p")
-        self.shows("the session is over; there is nothing to pause")
+        self.shows("the session has ended; it cannot be paused")
         self.assertEqual(self.n("paused"), 0)
         self.person.take_part(30)
         self.wait_for_end()
@@ -318,7 +318,7 @@ name = "light ones"
         self.assertNotIn("ones", self.terminal.shown)
         self.assertNotIn("sorting", self.terminal.shown)
         self.terminal.press("ey")
-        self.shows("backup, checked: ")
+        self.shows("verified backup: ")
         self.terminal.program.wait()
         self.assertEqual(self.terminal.program.returncode, 130)
         copy, = (self.folder / "copies").iterdir()
@@ -340,7 +340,7 @@ class FailedCheck(AtAConsole):
                    str(PROTOCOLS / "apparatus" / "synthetic_camera.yaml"))
         self.shows("FAILED   board")
         self.shows("  setting_up  ")
-        self.shows("go on? y goes on, n leaves, r checks again")
+        self.shows("continue? y continues, n leaves, r checks again")
         self.assertEqual(self.n("text_shown", "and detail not like '%setting_up%'"), 0)
 
     def test_nobody_is_shown_anything_when_the_experimenter_leaves(self):
@@ -357,7 +357,7 @@ class FailedCheck(AtAConsole):
         self.terminal.press("y")
         self.shows("  welcome  nothing tracked  ")
         self.assertEqual(self.n("note", "and detail like 'failed check: %board%; the experimenter "
-                                        "goes on'"), 1)
+                                        "continues'"), 1)
 
 
 class Shell(Terminal):

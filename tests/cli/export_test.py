@@ -310,7 +310,7 @@ class Export(SessionTest):
         for key in (shared / "k.key", shared / ".." / "shared" / "k.key"):
             said = self.run_heft("export", db, "--pseudonymise", "--key", key, "--out", shared,
                                  expect=2).stderr
-            self.assertIn("given away", said)
+            self.assertIn("shared with the folder", said)
             self.assertFalse(shared.exists())
         self.run_heft("export", db, "--pseudonymise", "--out", f"{shared}/")
         self.assertTrue((self.folder / "deep" / "shared.key").exists())

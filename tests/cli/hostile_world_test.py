@@ -153,7 +153,7 @@ class Readers(SessionTest):
     def test_data_that_nobody_takes_is_an_error(self):
         done = self.run_without_reader("scene", SCENE, "--trajectory", TRAJECTORY, gone="stdout")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("can't write to the standard output: Broken pipe", done.stderr)
+        self.assertIn("cannot write to the standard output: Broken pipe", done.stderr)
 
     def test_a_file_that_may_not_grow_is_told(self):
         db = self.folder / "s.db"
@@ -218,7 +218,7 @@ class Files(SessionTest):
         for path in (out, link):
             done = self.run_heft("sheet", "board", "--board",
                                  PROTOCOLS / "apparatus" / "board.toml", "--out", path, expect=1)
-            self.assertIn("is there already", done.stderr)
+            self.assertIn("already exists", done.stderr)
         self.assertEqual(out.read_text(), "mine")
         self.assertFalse((self.folder / "nowhere.pdf").exists())
 
@@ -270,7 +270,7 @@ class Files(SessionTest):
             self.assertEqual(change(changed, f"update setup set {column} = "
                                              f"replace('{name}', 'new', '{self.folder}/new')"), 1)
             done = self.run_heft("resume", "--db", changed, expect=5)
-            self.assertIn("not as it was written", done.stderr)
+            self.assertIn("the log was changed", done.stderr)
             self.assertEqual(list(self.folder.glob("new*")), [])
 
     def has_trial(self, db):

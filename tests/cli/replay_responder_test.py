@@ -173,7 +173,7 @@ class ReplayResponder(SessionTest):
         for words in (["--responder", "coin"], ["--set", "physics.friction=0.5"],
                       ["--view", "video:" + str(self.folder / "v.avi")]):
             said = self.run_heft("replay", "--db", self.db, *words, expect=5).stderr
-            self.assertIn("not as it was written", said)
+            self.assertIn("the log was changed", said)
 
     def test_what_does_not_go_together_is_refused(self):
         self.session(self.db)

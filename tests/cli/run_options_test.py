@@ -44,7 +44,7 @@ class Options(SessionTest):
                       self.refused(1, "--tracker", "synthetic", "--camera-file", "none.yaml"))
         said = self.refused(2, "--tracker", "frames:.")
         self.assertIn("heft calibrate camera", said)
-        self.assertIn("camera.yaml in this folder", said)
+        self.assertIn("camera.yaml in the current directory", said)
         self.assertIn("video63", self.refused(4, "--tracker", "camera:63", "--camera-file",
                                               str(APPARATUS / "synthetic_camera.yaml")))
 
@@ -73,7 +73,7 @@ class Options(SessionTest):
 
     def test_a_video_is_never_written_over(self):
         self.write("film.avi", "mine")
-        self.assertIn("film.avi exists", self.refused(1, "--view", "video:film.avi"))
+        self.assertIn("film.avi already exists", self.refused(1, "--view", "video:film.avi"))
         self.assertEqual((self.folder / "film.avi").read_text(), "mine")
 
     def test_a_resumed_session_goes_on_in_a_part_of_its_own(self):

@@ -246,7 +246,7 @@ class Auto(unittest.TestCase):
     def test_explain_names_a_chosen_simulator_too(self):
         run = heft_scene(SCENES / "pushes/push_200g.toml", SCENES / "paths" / "push.csv", "--simulator", "boxes",
                          "--explain")
-        self.assertIn("boxes at 240 Hz, as asked for", run.stderr)
+        self.assertIn("boxes at 240 Hz, as requested", run.stderr)
 
 
 class Refusals(Files):

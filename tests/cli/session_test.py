@@ -288,7 +288,7 @@ class Replaying(SessionTest):
         self.run_heft("replay", "--db", self.whole, "--set", "coupling.stifness=1", expect=3)
         self.run_heft("replay", "--db", self.whole, "--set", "nonsense", expect=2)
         ignored = self.run_heft("replay", "--db", self.whole, "--set", "display_rate_hz=5", expect=2)
-        self.assertIn("with the logged trials", ignored.stderr)
+        self.assertIn("in the logged trials", ignored.stderr)
 
 
 if __name__ == "__main__":

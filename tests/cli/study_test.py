@@ -243,7 +243,7 @@ class Plans(StudyTest):
 
     def test_a_plan_is_no_protocol_and_says_what_it_is(self):
         said = self.run_heft("run", self.plan, "--participant", "1", expect=2).stderr
-        self.assertIn(f"{self.plan} is a study's plan: heft run --plan {self.plan}", said)
+        self.assertIn(f"{self.plan} is a study plan: heft run --plan {self.plan}", said)
         protocol = self.folder / "again.toml"
         said = self.run_heft("run", "--plan", protocol, expect=2).stderr
         self.assertIn(f"heft run {protocol} --participant ID", said)
@@ -388,7 +388,7 @@ class Backups(StudyTest):
             self.assertIn(str(folder), said)
             self.assertFalse((self.folder / "a.db").exists())
         said = self.session(self.folder / "a.db", "--backup", self.folder / "new").stderr
-        self.assertIn(f"a copy of the log will be put into {self.folder / 'new'}\n", said)
+        self.assertIn(f"a copy of the log will be saved in {self.folder / 'new'}\n", said)
         self.assertEqual([copy.suffix for copy in self.copies("new")], [".db"])
 
     def under_way(self, db):
@@ -427,7 +427,7 @@ class Backups(StudyTest):
         self.kill_under_way(db)
         said = self.run_heft("resume", "--db", db, "--end", "--session", 1, "--backup",
                              self.folder / "copies")
-        self.assertIn("backup, checked: ", said.stderr)
+        self.assertIn("verified backup: ", said.stderr)
         self.assertEqual(query(self.copies()[0], "select state from session"), [("aborted",)])
 
     def test_come_after_a_stop_too(self):
@@ -443,7 +443,7 @@ class Backups(StudyTest):
         if process.returncode == 0:
             self.skipTest("it was over before it could be stopped")
         self.assertEqual(process.returncode, 130)
-        self.assertIn("backup, checked: ", said)
+        self.assertIn("verified backup: ", said)
         self.assertEqual(query(self.copies()[0], "select state from session"), [("paused",)])
 
 

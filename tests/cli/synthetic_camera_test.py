@@ -149,7 +149,7 @@ class SyntheticCamera(SessionTest):
         self.assertRegex(said, r"settings\.toml: exposure_s is 0\.02 s, .* 60 pictures a second")
         for tracker, code, word in (("synthetic:none.toml", 1, "none.toml"),
                                     ("synthetic:", 2, "synthetic:FILE"),
-                                    ("hand:x.toml", 2, "takes nothing after it")):
+                                    ("hand:x.toml", 2, "takes no argument")):
             said = self.session(self.db, "--tracker", tracker, expect=code, cwd=self.folder).stderr
             self.assertIn(word, said)
         self.assertFalse(self.db.exists())

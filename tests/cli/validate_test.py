@@ -61,7 +61,7 @@ class Validate(unittest.TestCase):
                          "coupling = { stiffness_n_per_m = 0.001 }\n" + text)
         result = self.validate(soft)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertRegex(result.stderr, "a simulated participant does not get through it: trial "
+        self.assertRegex(result.stderr, "a simulated participant cannot complete it: trial "
                          r"\d+: .* not every cube was touched")
 
     def questioned(self, text):
@@ -114,7 +114,7 @@ protocol = "asks.toml"
             self.assertRegex(
                 line,
                 rf"^{re.escape(str(path))}: ok, a protocol: about \d+ trials"
-                r"( \(\d+ to \d+ in 6 simulated participants\))? and \d+ minutes"
+                r"( \(\d+ to \d+ in 6 simulated participants\))? and \d+ min"
             )
 
     def test_a_simulator_for_one_stroke_is_warned_of_and_no_mistake(self):
@@ -122,7 +122,7 @@ protocol = "asks.toml"
         path = self.file("a.toml", text + '[physics]\nsimulator = "push"\n')
         run = self.validate(path)
         self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertRegex(run.stdout, r"ok, a protocol: about \d+ trials and \d+ minutes")
+        self.assertRegex(run.stdout, r"ok, a protocol: about \d+ trials and \d+ min")
         self.assertIn("models one straight push", run.stderr)
 
     def test_warns_of_choices_for_see_through_displays(self):

@@ -178,8 +178,8 @@ class Window(unittest.TestCase):
         deadline = time.time() + 60
         while not person.page() and time.time() < deadline:
             time.sleep(0.1)
-        for told in (["the window is not full screen any more"],
-                     ["the window is not full screen any more", "the window is full screen now"]):
+        for told in (["the window is no longer full screen"],
+                     ["the window is no longer full screen", "the window is now full screen"]):
             time.sleep(0.5)
             self.screen.key("F11")
             while [text for text, in person.log(notes)] != told and time.time() < deadline:

@@ -80,7 +80,7 @@ class Programs(Installed):
         showing = [prefix / "bin/heft", "run", prefix / "share/heft/protocols/quick.toml",
                    "--participant", "1", "--tracker", "mouse", "--view", "window", "--db",
                    self.folder / "lab.db"]
-        self.assertIn("none: people's sessions need a desktop", run(*checking, env=BARE).stdout)
+        self.assertIn("none: sessions with a window need a desktop", run(*checking, env=BARE).stdout)
         self.assertEqual(run(*showing, env=BARE).returncode, 4)
         next(prefix.rglob("heft-window.so")).unlink()
         for command in (checking, showing):

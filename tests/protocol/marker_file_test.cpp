@@ -255,7 +255,7 @@ const Broken of_grid[] = {
 
 const Broken of_tags[] = {
     {"no_id", {"[[tag]]\nid = 3\n", "^[[tag]]\n"}, {"[[tag]] lacks \"id\""}},
-    {"twice", {"= 34", "= ^3"}, {"tag 3 is there twice"}},
+    {"twice", {"= 34", "= ^3"}, {"tag 3 is listed twice"}},
     {"not_in_family", {"= 34", "= ^35"}, {"id is 35", "tag25h9: 0 to 34"}},
     {"three_corners", {"[[-0.02, 0.02, 0], ", "^["}, {"4 points [x, y, z]"}},
     {"flat_corner", {"[-0.02, 0.02, 0]", "^[-0.02, 0.02]"}, {"has 2 numbers, expected 3"}},
@@ -298,14 +298,14 @@ const Broken of_box[] = {
      {"the upper_left face of 0.00565685 x 0.09 m has no room"}},
     {"slanted_face_of_a_plain_box", {"top = 31", "^upper_left = 31"}, {"unknown key"}},
     {"negative_id", {"= 30", "= ^-1"}, {"tip is -1"}},
-    {"same_id", {"= 34", "= ^30"}, {"tag 30 is there twice"}},
+    {"same_id", {"= 34", "= ^30"}, {"tag 30 is listed twice"}},
     {"not_in_family", {"= 34", "= ^587"}, {"bottom is 587", "0 to 586"}},
     {"unknown_face", {"bottom", "^botom"}, {"unknown key \"botom\"", "\"bottom\""}},
     {"no_face",
      {"[box]\ntag_m = 0.024\ntip_margin_m = 0.005\ntip = 30\ntop = 31\nleft = 32\nright = 33\n"
       "bottom = 34\n",
       "^[box]\ntag_m = 0.024\n"},
-     {"[box] names no face"}},
+     {"[box] has no face"}},
     {"tip_margin_in_millimeters",
      {"0.005\ntip = 30\ntop = 31\nleft = 32\nright = 33\nbottom = 34\n", "5\ntop = ^31\n"},
      {"the top face of 0.04 x 0.09 m has no room", "0.003 m of white"}},

@@ -182,7 +182,7 @@ const std::vector<Broken> broken_procedures{
      {"steps_up = [3]", "stop_reversals = ^2"},
      {"leaves no reversal"}},
     {"min_trials_beyond_stop", {"min_trials = 4", "min_trials = ^91"}, {"at most stop_trials 90"}},
-    {"same_name", {"\"lists\"", "^\"15g\""}, {"already a staircase", "15g", "line 4"}},
+    {"same_name", {"\"lists\"", "^\"15g\""}, {"another staircase", "15g", "line 4"}},
     {"staircase_as_table",
      {procedure_file.substr(procedure_file.find("[[staircase]]")),
       "^[staircase]\nname = \"a\"\nstart = 1\nstep = 1\n"},
@@ -254,7 +254,7 @@ const std::vector<Broken> broken_constants{
     {"misspelled_kind", {"\"constant\"", "^\"constnat\""}, {"did you mean \"constant\""}},
     {"kind_unlike_any", {"\"constant\"", "^\"zzz\""}, {"\"up_down\" or \"constant\""}},
     {"key_of_another_kind", {"n_per_level = 4", "n_per_level = 4\n^step = 5"}, {"step"}},
-    {"same_name", {"\"b\"", "^\"a\""}, {"already a staircase", "line 2"}},
+    {"same_name", {"\"b\"", "^\"a\""}, {"another staircase", "line 2"}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Each, BrokenConstants, testing::ValuesIn(broken_constants),

@@ -119,9 +119,9 @@ TEST_P(BrokenQuestionnaire, IsOneMistakeAtItsPlace) {
 const std::vector<Broken> broken_questionnaires{
     {"kind", {"\"slider\"", "^\"slidder\""}, {"kind", "\"slider\"?"}},
     {"unknown_key", {"least = 0", "least = 0\n^step = 2"}, {"unknown key \"step\""}},
-    {"kept_key_too", {"\"b\"", "^\"answered_by\""}, {"keeps for itself"}},
-    {"kept_key", {"\"a\"", "^\"done_s\""}, {"keeps for itself"}},
-    {"key_with_a_blank", {"\"a\"", "^\"a b\""}, {"small letters"}},
+    {"kept_key_too", {"\"b\"", "^\"answered_by\""}, {"is reserved for the log"}},
+    {"kept_key", {"\"a\"", "^\"done_s\""}, {"is reserved for the log"}},
+    {"key_with_a_blank", {"\"a\"", "^\"a b\""}, {"lowercase letters"}},
     {"two_of_a_key", {"\"b\"", "^\"a\""}, {"two questions are \"a\""}},
     {"one_choice", {"choice = [{ value = \"x\", text = \"X\" }, ", "choice = ^["}, {"choice of 1"}},
     {"two_of_a_value", {"value = \"y\"", "value = ^\"x\""}, {"two choices are \"x\""}},
@@ -158,7 +158,7 @@ TEST(AskedQuestionnaires, AskedTwiceOrByNoNameAreRefused) {
   };
   const std::string table = "[[screens.questionnaire]]\n";
   EXPECT_THAT(mistake_in(table + "name = \"q\"\n" + table + "name = \"q\"\n"),
-              HasSubstr("\"q\" is asked at the end already"));
+              HasSubstr("\"q\" is already asked at the end"));
   EXPECT_EQ(mistake_in(table + "name = \"q\"\n" + table + "name = \"q\"\nafter = \"s\"\n"), "");
   for (const char* name : {"../q", "a.b", "q r"})
     EXPECT_THAT(mistake_in(table + "name = \"" + name + "\"\n"),

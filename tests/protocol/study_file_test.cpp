@@ -171,16 +171,16 @@ TEST(BrokenStudy, IsRefusedAtItsPlace) {
   EXPECT_THAT(mistakes_in(study("[order]\nblocks = [\"sorting\", 3]\n")),
               HasSubstr("STUDY.toml:6:22: "));
   EXPECT_THAT(mistakes_in(study("[order]\nblocks = [\"comparison\", \"comparison\"]\n")),
-              HasSubstr("STUDY.toml:6:25: \"comparison\" is there twice"));
+              HasSubstr("STUDY.toml:6:25: \"comparison\" is listed twice"));
   EXPECT_THAT(mistakes_in(study("[order]\nblocks = [\"comparison\"]\n")),
               HasSubstr("has 1 block(s)"));
   EXPECT_THAT(mistakes_in(study("[[group]]\nname = \"a\"\n[[group]]\nname = \"a\"\n")),
-              HasSubstr("STUDY.toml:8:8: there is a group \"a\" already"));
+              HasSubstr("STUDY.toml:8:8: another group is named \"a\""));
 }
 
 TEST(BrokenStudy, IdsThatNobodyCanHaveAreRefused) {
   EXPECT_THAT(mistakes_in(study("id_prefix = \"P\\u0007\"\n")),
-              HasSubstr("lab/STUDY.toml:5:13: id_prefix \"P \" can't be: the id contains the "
+              HasSubstr("lab/STUDY.toml:5:13: id_prefix \"P \" is invalid: the id contains the "
                         "control character U+0007"));
   EXPECT_THAT(mistakes_in(study("id_prefix = \"" + std::string(199, 'x') + "\"\n")),
               HasSubstr("has 201 bytes"));
@@ -194,7 +194,7 @@ TEST(BrokenStudy, BlocksThatItsProtocolLacksAreNamed) {
   EXPECT_THAT(
       mistakes_in(study("[order]\ndesign = \"rows\"\n[[order.row]]\nblocks = [\"sorting\", "
                         "\"comparison\"]\n[[order.row]]\nblocks = [\"sorting\", \"sorting2\"]\n")),
-      HasSubstr("STUDY.toml:10:10: blocks are not those of the first row"));
+      HasSubstr("STUDY.toml:10:10: blocks differ from those of the first row"));
 }
 
 TEST(BrokenStudy, AProtocolThatCantBeReadIsNamedWhereItStands) {
@@ -214,7 +214,7 @@ TEST(BlockOrder, OfAProtocolNamesItsBlocks) {
     return "";
   };
   EXPECT_THAT(refused("[\"nothing\", \"comparison\"]"), HasSubstr("there is no block \"nothing\""));
-  EXPECT_THAT(refused("[\"comparison\", \"comparison\"]"), HasSubstr("is there twice"));
+  EXPECT_THAT(refused("[\"comparison\", \"comparison\"]"), HasSubstr("is listed twice"));
   EXPECT_THAT(refused("[]"), HasSubstr("block_order"));
 }
 

@@ -89,7 +89,7 @@ TEST(Techniques, ThatAreNotThereAreNamedWithTheirPlace) {
   EXPECT_THAT(what_is_wrong_in(declared_with("kind = \"coupled\"", "kind = \"elastic\"")),
               HasSubstr("techniques.toml:10:"));
   EXPECT_THAT(what_is_wrong_in(declared_with("name = \"tied\"", "name = \"soft\"")),
-              HasSubstr("already a"));
+              HasSubstr("another technique is named"));
   EXPECT_THAT(what_is_wrong_in(declared_with("{ soft = 2, C1 = 1, tied = 3 }", "{ soft = 0 }")),
               HasSubstr("the block has 0 trials"));
 }
@@ -153,7 +153,7 @@ TEST(Techniques, WithAWrongTableAreRefusedAtTheirPlace) {
   const auto expect = [](const std::string& from, const std::string& to, const std::string& what) {
     EXPECT_THAT(mistakes_after(from, to), HasSubstr(what)) << to;
   };
-  expect("[800, 0.2]", "[200, 0.2]", "techniques.toml:5:41: gain_of_mass goes from 200 to 200 g");
+  expect("[800, 0.2]", "[200, 0.2]", "techniques.toml:5:41: gain_of_mass changes from 200 to 200 g");
   expect("[800, 0.2]", "[800]", "techniques.toml:5:41: gain_of_mass is an array, expected pairs");
   expect("[800, 0.2]", "[800, -0.2]",
          "techniques.toml:5:47: gain_of_mass is -0.2, expected a number, at least 0");

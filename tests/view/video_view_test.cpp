@@ -77,11 +77,11 @@ TEST(VideoView, RefusesFilesThatItWouldSpoilOrCanNotWrite) {
   const TemporaryFolder folder;
   const std::string taken = folder.file("taken.mp4");
   std::ofstream(taken) << "precious";
-  expect_refused(taken, "exists already");
+  expect_refused(taken, "already exists");
   EXPECT_EQ(read_text_file(taken), "precious");
   expect_refused(folder.file("session.mov"), ".mp4 or .avi");
   expect_refused(folder.file("session"), ".mp4 or .avi");
-  expect_refused(folder.file("nowhere/session.mp4"), "can't write");
+  expect_refused(folder.file("nowhere/session.mp4"), "cannot write");
 }
 
 TEST(VideoView, IsInTheTableAsAViewWithAFileAndNoScreen) {

@@ -76,9 +76,10 @@ void cover_right_of(double x0, double x1, double height, int n_columns, const St
 /// Calls row(y, begin, end) for every row in which a triangle of either winding covers the points
 /// begin <= x < end. Triangles with a common edge neither share points nor leave gaps.
 template <typename Row>
-void scan_points(std::array<Eigen::Vector2d, 3> corners, int n_columns, int n_rows,
+void scan_points(const std::array<Eigen::Vector2d, 3>& triangle, int n_columns, int n_rows,
                  const Row& row) {
   using scanning::first_line, scanning::Edge;
+  std::array<Eigen::Vector2d, 3> corners = triangle;
   std::ranges::sort(corners, [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return a.y() != b.y() ? a.y() < b.y() : a.x() < b.x();
   });

@@ -83,7 +83,7 @@ void require_as_asked(const CalibrateOptions& options, const CameraRequest& requ
   throw Error(fmt::format(
       "--size {}: {} gives pictures of {} x {} pixels; {}", options.size, to_text(*options.source),
       picture.width, picture.height,
-      camera.is_live() ? "heft doctor lists its sizes" : "omit --size, it sets live cameras only"));
+      camera.is_live() ? "heft doctor --list prints its sizes" : "omit --size, it sets live cameras only"));
 }
 
 void say_locks(const Camera& camera) {
@@ -337,7 +337,7 @@ DisplayMeasures by_ruler(const DisplayOptions& options) {
   const std::vector<DisplayFacts> all = window_module().displays();
   const auto number = static_cast<std::size_t>(options.display);
   if (options.display < 0 || number >= all.size())
-    throw Error(fmt::format("there is no display {}; heft doctor lists them", options.display),
+    throw Error(fmt::format("there is no display {}; heft doctor prints them", options.display),
                 ExitCode::device_missing);
   return {all[number].w_px, all[number].h_px, *options.width_mm, *options.height_mm, 0};
 }
@@ -366,7 +366,7 @@ void add_display(Command& parent) {
       {"heft calibrate display", "heft calibrate display --display 1 --eye-distance-mm 450",
        "heft calibrate display --width-mm 154 --height-mm 90 --eye-distance-mm 450"});
   const auto options = std::make_shared<DisplayOptions>();
-  command.add_option("--display", &options->display, "its number (heft doctor lists them)")
+  command.add_option("--display", &options->display, "its number (heft doctor --list)")
       .shows_default();
   command.add_option("--width-mm", &options->width_mm,
                      "of its picture, measured with a ruler instead");

@@ -229,19 +229,19 @@ void check_tracker(Report& report, SessionOptions given, double rate_hz) {
   check_shutter(report, apparatus.camera);
 }
 
-void list_cameras() {
+void list_cameras(const std::vector<VideoDevice>& devices) {
   print("\ncameras:\n");
-  const std::vector<VideoDevice> devices = video_devices();
   for (const VideoDevice& device : devices) {
     print("  camera:{:<9} /dev/video{} {}\n", device.number, device.number, device.name);
     for (const std::string& mode : device_modes(device)) print("  {:<16}   {}\n", "", mode);
   }
-  if (devices.empty()) print("  none is attached\n");
-  print("check one: heft doctor --tracker camera:0 --camera-file camera.yaml\n");
+  if (devices.empty()) print("  none is connected\n");
 }
 
+// Everything that options name.
 void list_plugs() {
-  print("\nsimulators:\n");
+  list_cameras(video_devices());
+  print("simulators:\n");
   for (const SimulatorEntry& entry : simulators()) {
     print("  {:<22} {}\n", entry.name, entry.summary);
     if (!entry.warning.empty()) print("  {:<22} warning: {}\n", "", entry.warning);
@@ -253,7 +253,15 @@ void list_plugs() {
   print("responders:\n");
   for (const ResponderEntry& entry : responders())
     print("  {:<16} {}\n", entry.name, entry.summary);
-  print("the parameters of a responder: heft doctor --responder NAME\n");
+}
+
+void print_next_steps() {
+  print(
+      "\ncameras: {}\n"
+      "check one: heft doctor --tracker camera:0 --camera-file camera.yaml\n"
+      "trackers, views, simulators, responders: heft doctor --list\n"
+      "a responder's parameters: heft doctor --responder NAME\n",
+      list_of(video_devices()));
 }
 
 void diagnose(const std::string& db, const SessionOptions& given, double rate_hz) {
@@ -271,8 +279,7 @@ void diagnose(const std::string& db, const SessionOptions& given, double rate_hz
   check_displays(report, texts);
   check_touch_delay(report, folder, texts);
   if (given.tracker) check_tracker(report, given, rate_hz);
-  list_cameras();
-  list_plugs();
+  print_next_steps();
   if (report.failed()) throw Error("this machine is not ready; see the lines marked FAILED");
 }
 
@@ -283,11 +290,12 @@ void add_doctor(Command& app) {
     std::string db = "heft.db", responder;
     SessionOptions given;
     double rate_hz = 15;
+    bool list = false;
   };
   const auto options = std::make_shared<DoctorOptions>();
   Command command = app.add_command(
       "doctor", "check this machine and a camera; list trackers, views, responders",
-      {"heft doctor", "heft doctor --db lab.db", "heft doctor --tracker camera:0",
+      {"heft doctor", "heft doctor --list", "heft doctor --tracker camera:0",
        "heft doctor --tracker camera:0 --camera-file camera.yaml --board board.toml",
        "heft doctor --responder simulated"});
   command.add_option("--db", &options->db, "the log to check, and whose folder").shows_default();
@@ -297,8 +305,11 @@ void add_doctor(Command& app) {
   command.group("Options");
   command.add_option("--display-rate", &options->rate_hz, "required pictures per second")
       .shows_default();
+  command.add_flag("--list", options->list,
+                   "only list cameras, trackers, views, simulators and responders");
   command.add_option("--responder", &options->responder, "only describe its parameters");
   command.does([options] {
+    if (options->list) return list_plugs();
     if (options->responder.empty()) return diagnose(options->db, options->given, options->rate_hz);
     const std::string text = describe_parameters(responder_named(options->responder));
     print("{}", text.empty() ? "it has no parameters\n" : text);

@@ -152,9 +152,10 @@ void refuse_id_near_to_planned(const StudyPlan& plan, const std::vector<SessionR
   for (const SessionRow& session : sessions)
     if (session.header.participant == *options.participant) return;
   if (const auto near = near_planned_id(*options.participant, plan))
-    refuse_unless_two_people(fmt::format("the plan {} has no participant \"{}\", but it has \"{}\"",
-                                         options.plan, *options.participant, *near),
-                             options);
+    refuse_unless_two_people(
+        fmt::format("the plan {} has no participant \"{}\", but there is \"{}\"", options.plan,
+                    *options.participant, *near),
+        options);
 }
 
 // A group's participants must have the same protocol.
@@ -211,7 +212,7 @@ void take_from_plan(RunOptions& options) {
 void refuse_near_id(RunOptions& options) {
   if (options.again || options.are_two) return;
   if (const auto near = near_id(*options.participant, sessions_in(*options.db)))
-    refuse_unless_two_people(fmt::format("participant \"{}\" is new in {}, but it has \"{}\"",
+    refuse_unless_two_people(fmt::format("participant \"{}\" is new in {}, but there is \"{}\"",
                                          *options.participant, *options.db, *near),
                              options);
 }

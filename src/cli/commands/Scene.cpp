@@ -96,8 +96,7 @@ void run(Drive& drive, const Trajectory& trajectory, double rate_hz, const Take&
 void explain_solves(const SceneOptions& options, const Drive& drive) {
   const std::optional<SolveCounts> counts = drive.counts();
   if (options.explain && counts)
-    say("heft: {} contact checks; {} solves did not converge\n", counts->hits,
-        counts->not_converged);
+    say("heft: {} collisions; {} solves did not converge\n", counts->hits, counts->not_converged);
 }
 
 // Tries simulators from simple to general until one models the whole path; prints only its rows.

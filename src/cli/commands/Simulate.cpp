@@ -78,7 +78,7 @@ void add_simulate(Command& app) {
        "heft simulate protocols/jnd.toml --responder simulated:mine.toml --participants 50"});
   command.add_option("PROTOCOL", &options->protocol, "a protocol file").required();
   add_responder(command, options->given.responder,
-                "NAME or NAME:FILE (heft doctor lists them; default: simulated)");
+                "NAME or NAME:FILE (heft doctor --list; default: simulated)");
   command.add_option("--participants", &options->participants, "number of participants")
       .whole_number(1, 1'000'000)
       .shows_default();

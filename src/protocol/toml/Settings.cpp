@@ -49,7 +49,7 @@ TomlTable& descend(TomlTable& table, const std::string& key, std::vector<std::st
   TomlEntry* entry = entry_named(table, key);
   if (!entry)
     return std::get<TomlTable>(
-        table.emplace_back(key, TomlPlace{}, TomlNode{{}, TomlTable{}}).node.value);
+        table.emplace_back(TomlEntry{key, {}, {{}, TomlTable{}}}).node.value);
   TomlNode* node = &entry->node;
   if (auto* array = std::get_if<TomlArray>(&node->value); array && !rest.empty()) {
     const auto element = std::ranges::find_if(

@@ -329,7 +329,7 @@ class Refusals(unittest.TestCase):
                 run = subprocess.run(command(file.name), stdin=subprocess.DEVNULL,
                                      stdout=full, stderr=subprocess.PIPE, timeout=60)
             self.assertEqual(run.returncode, 1)
-            self.assertIn(b"can't write", run.stderr)
+            self.assertIn(b"cannot write", run.stderr)
             with subprocess.Popen(command(file.name), stdin=subprocess.PIPE,
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE) as talk:
                 talk.stdout.readline()

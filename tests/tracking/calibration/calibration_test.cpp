@@ -127,7 +127,7 @@ TEST(ViewCollector, SaysWhatIsMissing) {
   views.offer(Image(640, 480, 1), "gray");
   EXPECT_EQ(views.tally(),
             "of 5 picture(s) 2 were kept; 1 don't show the board clearly (4 tags or more); 2 are "
-            "too much like one that was kept");
+            "too similar to one that was kept");
   const std::string missing = joined(views.missing());
   for (const char* what : {"tilt the board", "of the picture", "18 more views"})
     EXPECT_NE(missing.find(what), std::string::npos) << missing;
@@ -204,7 +204,7 @@ TEST(EffectorCalibration, RefusesATagThatItSawTooLittle) {
   EXPECT_NE(refusal(made, views).find("tag 33 (in 0 picture(s))"), std::string::npos)
       << refusal(made, views);
   views.resize(3);
-  EXPECT_NE(refusal(made, views).find("tag 30, 31, 32, 33, 34"), std::string::npos)
+  EXPECT_NE(refusal(made, views).find("too rarely beside another tag: 30, 31, 32, 33, 34"), std::string::npos)
       << refusal(made, views);
 }
 

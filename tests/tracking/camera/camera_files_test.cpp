@@ -77,7 +77,7 @@ TEST(ImageFile, AnAbsurdSizeIsRefusedBeforeDecoding) {
   file.seekp(16).write("\0\0\x4E\x20\0\0\x4E\x20", 8);  // 20000 x 20000
   file.close();
   EXPECT_THAT(message_of([&] { read_image(folder.file("a.png")); }),
-              HasSubstr("says that it has 20000 x 20000 pixels"));
+              HasSubstr("declares 20000 x 20000 pixels"));
 }
 
 // Its directory is behind the pixels.
@@ -97,7 +97,7 @@ TEST(ImageFile, AnAbsurdTiffIsRefusedBeforeDecoding) {
   }
   file.close();
   EXPECT_THAT(message_of([&] { read_image(folder.file("a.tif")); }),
-              HasSubstr("says that it has 20000 x 20000 pixels"));
+              HasSubstr("declares 20000 x 20000 pixels"));
 }
 
 TEST(PictureFolder, RefusesAPictureOfAnotherSizeByItsHeader) {
@@ -205,7 +205,7 @@ TEST(PictureFolder, RefusesAFolderWithoutPictures) {
     return message_of([&] { open_camera("frames", what); });
   };
   EXPECT_THAT(opening(folder.path()), HasSubstr("no pictures"));
-  EXPECT_THAT(opening(folder.file("none")), HasSubstr("can't be read as a folder"));
+  EXPECT_THAT(opening(folder.file("none")), HasSubstr("cannot be read as a folder"));
 }
 
 TEST(VideoFile, GivesEveryPictureAtItsTime) {

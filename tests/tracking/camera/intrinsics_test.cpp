@@ -188,7 +188,7 @@ TEST(IntrinsicsFile, RefusesWhatCanNotBe) {
   EXPECT_THAT(refusal(edited("0.06, ", "")), HasSubstr("5 cols, but has 4 numbers"));
   EXPECT_THAT(refusal(edited("540", ".Nan")), HasSubstr("camera_matrix is unusable"));
   EXPECT_THAT(refusal(to_yaml(mild, "") + "exposure_s: 4\n"),
-              HasSubstr("c.yaml:15:1: exposure_s is 4, expected the seconds"));
+              HasSubstr("c.yaml:15:1: exposure_s is 4, expected the exposure time in seconds"));
   EXPECT_THAT(refusal(to_yaml(mild, "") + "focus: near\n"), HasSubstr("focus is unusable"));
   EXPECT_THAT(refusal(to_yaml(mild, "") + "readout_s: 25\n"),
               HasSubstr("c.yaml:15:1: readout_s is 25, expected the seconds from the first row"));
@@ -231,7 +231,7 @@ TEST(IntrinsicsFile, RefusesFilesThatHarmReaders) {
   EXPECT_THAT(refusal("<?xml version=\"1.0\"?><opencv_storage/>"), HasSubstr("c.yaml:1:1: "));
   EXPECT_THAT(refusal("{\"image_width\": 640}"), HasSubstr("image_height is missing"));
   EXPECT_THAT(with("image_width: 3"),
-              HasSubstr("c.yaml:15:1: the file has this key for the second"));
+              HasSubstr("c.yaml:15:1: the file has this key twice"));
   EXPECT_THAT(with("x: " + std::string(100'000, '[')), HasSubstr("the file is not valid YAML"));
   EXPECT_THAT(with("a: b: c: d: e: f: g"), HasSubstr("c.yaml:15:5: the file is not valid YAML"));
   EXPECT_THAT(with("im--"), HasSubstr("c.yaml:15:1: the file has no value here"));

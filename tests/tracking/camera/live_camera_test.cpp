@@ -63,7 +63,7 @@ TEST(LockControls, SaysWhatAMissingLockMeans) {
   CameraMode mode;
   lock_controls(controls_of(properties), {}, mode);
   EXPECT_THAT(mode.locked, ElementsAre("white balance"));
-  EXPECT_THAT(mode.not_locked, ElementsAre(HasSubstr("smear"), HasSubstr("calibration")));
+  EXPECT_THAT(mode.not_locked, ElementsAre(HasSubstr("blurred"), HasSubstr("calibration")));
 }
 
 TEST(LockControls, BelievesWhatItReadsBackNotWhatSetSays) {
@@ -111,14 +111,14 @@ TEST(LockControls, SaysWhereTheLensIsNotWhereItWasCalibrated) {
   std::map<int, double> without_control{{cv::CAP_PROP_AUTOFOCUS, 1}};
   CameraMode mode;
   lock_controls(controls_of(without_control), request, mode);
-  EXPECT_THAT(mode.not_locked, Contains(HasSubstr("calibrated at 35, but this driver can't")));
+  EXPECT_THAT(mode.not_locked, Contains(HasSubstr("calibrated at 35, but this driver cannot")));
   EXPECT_FALSE(mode.held.focus);
 
   const auto elsewhere = [](int property) { return property == cv::CAP_PROP_FOCUS ? 120.0 : 0.0; };
   mode = {};
   lock_controls({[](int, double) { return true; }, elsewhere}, request, mode);
   EXPECT_THAT(mode.not_locked, Contains(AllOf(HasSubstr("calibrated at 35, but it is at 120"),
-                                              HasSubstr("calibrate once more"))));
+                                              HasSubstr("calibrate again"))));
 }
 
 // Some versions of OpenCV say 0 for what a driver does not have.
