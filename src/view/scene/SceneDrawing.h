@@ -4,9 +4,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <optional>
 #include <vector>
 
+#include "base/PoseTypes.h"
 #include "view/ArView.h"
 #include "view/scene/Rasterizer.h"
 #include "view/scene/Viewpoint.h"
@@ -54,5 +56,29 @@ class SceneDrawing {
   Image plain_table_;        ///< as seen from the viewpoint; empty: not drawn yet
   std::vector<Pose> cubes_;  ///< of the last frame
 };
+
+// The shapes of a scene: boxes with flat shaded faces and marked edges, sheets on the table, and
+// soft shadows (Shadow.cpp).
+
+/// Colors of a box: of a fully lit face and of its edges.
+struct BoxLook {
+  std::array<int, 3> face_bgr{}, edge_bgr{};
+  double opacity = 1;
+  int object = 0;  ///< for Rasterizer::find_object
+};
+
+/// Draws a box lit by the scene's one fixed lamp.
+void draw_box(Rasterizer& rasterizer, const Viewpoint& viewpoint, const Pose& board_from_box,
+              const Eigen::Vector3d& size_m, const BoxLook& look);
+
+/// Draws the shadow of a box on the table: dark and sharp below a standing box, pale and wide below
+/// a lifted one.
+/// @param strength darkness below a standing box, 0...1
+void draw_shadow(Rasterizer& rasterizer, const Viewpoint& viewpoint, const Pose& board_from_box,
+                 const Eigen::Vector3d& size_m, double strength);
+
+/// Draws a rectangle with a border on the table around the board's center.
+void draw_sheet(Rasterizer& rasterizer, const Viewpoint& viewpoint, const Eigen::Vector2d& size_m,
+                double border_m, std::uint8_t inside, std::uint8_t border);
 
 }  // namespace heft

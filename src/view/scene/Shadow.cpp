@@ -1,12 +1,12 @@
-// draw_shadow of Shapes.h. A shadow is a flat polygon of full darkness on the table, with rings
-// around it that fade out.
+// draw_shadow of SceneDrawing.h. A shadow is a flat polygon of full darkness on the table, with
+// rings around it that fade out.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "base/math/Geometry.h"
-#include "view/scene/Shapes.h"
+#include "view/scene/SceneDrawing.h"
 
 namespace heft {
 

@@ -1,5 +1,5 @@
 #include "tasks/Comparison.h"
-#include "view/screens/SceneParts.h"
+#include "view/screens/ScreenPages.h"
 
 namespace heft {
 

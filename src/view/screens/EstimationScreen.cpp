@@ -5,7 +5,7 @@
 
 #include "tasks/Estimation.h"
 #include "view/screens/AskedQuestion.h"
-#include "view/screens/SceneParts.h"
+#include "view/screens/ScreenPages.h"
 
 namespace heft {
 

@@ -1,8 +1,8 @@
-#include "view/screens/SceneParts.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+
+#include "view/screens/ScreenPages.h"
 
 namespace heft {
 

@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "tasks/Sorting.h"
-#include "view/screens/SceneParts.h"
+#include "view/screens/ScreenPages.h"
 
 namespace heft {
 
