@@ -29,7 +29,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 [[noreturn]] void refuse_writing(const std::string& path, const std::string& why) {
-  throw Error(fmt::format("can't write {}: {}", path, why));
+  throw Error(fmt::format("cannot write {}: {}", path, why));
 }
 
 // Copies the file to the first free name.
