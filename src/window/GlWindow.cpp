@@ -50,16 +50,22 @@ void explain_lost_display() {
     reinterpret_cast<SetHandler>(function)(on_lost_display);
 }
 
-// SDL's own attempt prints messages of the window system's libraries.
-bool has_desktop() {
-  return SDL_getenv("DISPLAY") || SDL_getenv("WAYLAND_DISPLAY") || SDL_getenv("SDL_VIDEODRIVER");
+bool is_set(const char* variable) {
+  const char* value = SDL_getenv(variable);
+  return value && *value != '\0';
 }
 
-// Without a display SDL draws into memory, which is only accepted if its driver was requested by
-// name.
-bool draws_into_memory() {
-  const std::string_view driver = SDL_GetCurrentVideoDriver();
-  return (driver == "offscreen" || driver == "dummy") && !SDL_getenv("SDL_VIDEODRIVER");
+// Tries only the desktops that the environment names, unless a driver is requested by name: probing
+// others prints messages of their libraries, and without any SDL would draw into memory.
+bool start_video() {
+  std::string drivers = is_set("DISPLAY") ? "x11" : "";
+  if (is_set("WAYLAND_DISPLAY")) drivers += drivers.empty() ? "wayland" : ",wayland";
+  if (drivers.empty() && !is_set("SDL_VIDEODRIVER")) {
+    SDL_SetError("neither X nor Wayland is running");
+    return false;
+  }
+  SDL_SetHint(SDL_HINT_VIDEODRIVER, drivers.c_str());  // the variable has priority
+  return SDL_InitSubSystem(SDL_INIT_VIDEO | SDL_INIT_EVENTS) == 0;
 }
 
 void set_hints() {
@@ -118,13 +124,7 @@ SDL_Window* window_on(const WindowChoice& choice, const char* title) {
 struct GlWindow::Video {
   Video() {
     set_hints();
-    if (has_desktop() && SDL_InitSubSystem(SDL_INIT_VIDEO | SDL_INIT_EVENTS) != 0)
-      throw no_display("no display");
-    if (!has_desktop() || draws_into_memory()) {
-      SDL_SetError("neither X nor Wayland is running");
-      SDL_QuitSubSystem(SDL_INIT_VIDEO | SDL_INIT_EVENTS);
-      throw no_display("no display");
-    }
+    if (!start_video()) throw no_display("no display");
     SDL_DisableScreenSaver();
     explain_lost_display();
   }
@@ -197,10 +197,9 @@ int touch_devices() {
 
 std::vector<DisplayFacts> displays() {
   std::vector<DisplayFacts> all;
-  if (!has_desktop() || SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return all;
-  for (int i = 0; i < SDL_GetNumVideoDisplays() && !draws_into_memory(); ++i)
-    all.push_back(facts_of(i));
-  SDL_QuitSubSystem(SDL_INIT_VIDEO);
+  if (!start_video()) return all;
+  for (int i = 0; i < SDL_GetNumVideoDisplays(); ++i) all.push_back(facts_of(i));
+  SDL_QuitSubSystem(SDL_INIT_VIDEO | SDL_INIT_EVENTS);
   return all;
 }
 
