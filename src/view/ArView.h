@@ -23,8 +23,7 @@ struct ViewFrame {
   DisplayedFrame frame;
   std::shared_ptr<const Image> camera;    ///< none: a plain table is drawn
   std::optional<Pose> camera_from_board;  ///< none: the last viewpoint, or the default
-  /// What is in front of all cubes in the camera picture: 255 completely, one channel; none:
-  /// unknown.
+  /// How much of each camera pixel is in front of all cubes, of 255; one channel; none: unknown.
   std::shared_ptr<const Image> in_front = {};
   std::optional<Pose> other_clone = {};  ///< of a what-if, in another color; none: not drawn
 };
@@ -45,8 +44,8 @@ struct ViewSetup {
   std::optional<Eigen::AlignedBox3d> shown_m = {};
   int display = 0;        ///< its number
   bool windowed = false;  ///< not full screen
-  std::shared_ptr<DraggedEffector> dragged =
-      {};  ///< to be dragged in trials; none: the effector is real or simulated
+  /// Dragged by the participant in trials; none: the effector is real or simulated.
+  std::shared_ptr<DraggedEffector> dragged = {};
 };
 
 class ArView {

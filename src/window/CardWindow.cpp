@@ -12,7 +12,7 @@ namespace {
 constexpr double start_fraction = 0.4;  // of the display's width
 constexpr int wait_ms = 100;
 
-enum class Wish { none, done, leave };
+enum class Response { none, accept, cancel };
 
 struct Card {
   double w_px, most_px;
@@ -21,43 +21,43 @@ struct Card {
   void change(double by_px) { set(w_px + by_px); }
 };
 
-Wish key(const SDL_Keysym& pressed, Card& card) {
+Response key(const SDL_Keysym& pressed, Card& card) {
   const double step = (pressed.mod & KMOD_SHIFT) != 0 ? 10 : 1;
   switch (pressed.sym) {
     case SDLK_RETURN:
     case SDLK_KP_ENTER:
-      return Wish::done;
+      return Response::accept;
     case SDLK_ESCAPE:
-      return Wish::leave;
+      return Response::cancel;
     case SDLK_RIGHT:
     case SDLK_UP:
       card.change(step);
-      return Wish::none;
+      return Response::none;
     case SDLK_LEFT:
     case SDLK_DOWN:
       card.change(-step);
-      return Wish::none;
+      return Response::none;
     default:
-      return Wish::none;
+      return Response::none;
   }
 }
 
-Wish handle(const SDL_Event& event, float scale, const Measures& window, Card& card) {
+Response handle(const SDL_Event& event, float scale, const Measures& window, Card& card) {
   switch (event.type) {
     case SDL_KEYDOWN:
       return key(event.key.keysym, card);
     case SDL_MOUSEWHEEL:
       card.change(event.wheel.y);
-      return Wish::none;
+      return Response::none;
     case SDL_MOUSEMOTION:
       if ((event.motion.state & SDL_BUTTON_LMASK) != 0)
         card.set(2 * std::abs(static_cast<double>(static_cast<float>(event.motion.x) * scale -
                                                   window.width / 2)));
-      return Wish::none;
+      return Response::none;
     case SDL_QUIT:
-      return Wish::leave;
+      return Response::cancel;
     default:
-      return Wish::none;
+      return Response::none;
   }
 }
 
@@ -95,9 +95,9 @@ std::optional<MeasuredCard> measure_card(int display, const std::string& how) {
     draw(window, card, how, typeface);
     SDL_Event event;
     if (SDL_WaitEventTimeout(&event, wait_ms) == 0) continue;
-    const Wish wish = handle(event, window.scale(), m, card);
-    if (wish == Wish::leave) return std::nullopt;
-    if (wish == Wish::done) return MeasuredCard{window.display(), card.w_px};
+    const Response response = handle(event, window.scale(), m, card);
+    if (response == Response::cancel) return std::nullopt;
+    if (response == Response::accept) return MeasuredCard{window.display(), card.w_px};
   }
 }
 

@@ -8,7 +8,7 @@
 namespace heft {
 
 namespace {
-constexpr const char* nobody_looks =
+constexpr const char* no_desktop =
     "none: sessions with a window need a desktop (DISPLAY or WAYLAND_DISPLAY set)";
 
 std::string described(const DisplayFacts& display) {
@@ -39,7 +39,7 @@ CheckResult check_graphics() try {
 }
 
 CheckResult check_touch() {
-  const int n = touch_devices();
+  const int n = SDL_GetNumTouchDevices();
   if (n == 0) return {CheckVerdict::ok, "touch", "no touch screen; a mouse works, too"};
   return {CheckVerdict::ok, "touch", fmt::format("{} touch device{}", n, n > 1 ? "s" : "")};
 }
@@ -50,7 +50,7 @@ std::vector<CheckResult> check_displays(const ScreenTexts& texts) {
   for (const DisplayFacts& display : displays())
     results.push_back({CheckVerdict::ok, "display", described(display)});
   if (results.empty())
-    results.push_back({CheckVerdict::warning, "display", nobody_looks});
+    results.push_back({CheckVerdict::warning, "display", no_desktop});
   else
     results.push_back(check_graphics());
   results.push_back(check_typeface(texts));

@@ -191,10 +191,6 @@ std::string GlWindow::renderer() const {
   return name ? name : "unknown";
 }
 
-int touch_devices() {
-  return SDL_GetNumTouchDevices();
-}
-
 std::vector<DisplayFacts> displays() {
   std::vector<DisplayFacts> all;
   if (!start_video()) return all;

@@ -18,9 +18,6 @@ namespace heft {
 
 class WrittenTextures;
 
-/// Number of touch devices.
-int touch_devices();
-
 struct WindowChoice {
   int display = 0;
   bool windowed = false;

@@ -8,9 +8,6 @@
 #include <cstdint>
 #include <numbers>
 #include <utility>
-#include <vector>
-
-#include "view/text/Typeface.h"
 
 namespace heft {
 
@@ -166,13 +163,14 @@ void paint_page(ImDrawList& list, const Page& page, const Paint& paint) {
                      paint.patch->white ? IM_COL32_WHITE : IM_COL32_BLACK);
 }
 
-Rect fitted_scene(const Rect& room, float width, float height) {
-  const float scale = std::min(room.width / width, room.height / height);
-  return {room.x + (room.width - scale * width) / 2, room.y + (room.height - scale * height) / 2,
-          scale * width, scale * height};
+namespace {
+// The largest area inside `space`, centered, with the aspect ratio of width and height.
+Rect fitted_scene(const Rect& space, float width, float height) {
+  const float scale = std::min(space.width / width, space.height / height);
+  return {space.x + (space.width - scale * width) / 2,
+          space.y + (space.height - scale * height) / 2, scale * width, scale * height};
 }
 
-namespace {
 Rect rect_of(const Eigen::AlignedBox2d& box) {
   const Eigen::Vector2f from = box.min().cast<float>(), size = box.sizes().cast<float>();
   return {from.x(), from.y(), size.x(), size.y()};
@@ -208,18 +206,18 @@ void SceneOnScreen::find_part() {
 }
 
 // Fills remaining space with more of the frame.
-void SceneOnScreen::fill_room(const Rect& room) {
+void SceneOnScreen::fill_space(const Rect& space) {
   part_px_ = wanted_px_;
-  const float ratio = room.width / room.height;
+  const float ratio = space.width / space.height;
   widen(part_px_.x, part_px_.width, part_px_.height * ratio, static_cast<float>(width_px_));
   widen(part_px_.y, part_px_.height, part_px_.width / ratio, static_cast<float>(height_px_));
 }
 
-void SceneOnScreen::place(const std::optional<Rect>& room) {
+void SceneOnScreen::place(const std::optional<Rect>& space) {
   area_.reset();
-  if (!room || width_px_ == 0) return;
-  fill_room(*room);
-  area_ = fitted_scene(*room, part_px_.width, part_px_.height);
+  if (!space || width_px_ == 0) return;
+  fill_space(*space);
+  area_ = fitted_scene(*space, part_px_.width, part_px_.height);
 }
 
 Rect SceneOnScreen::part() const {

@@ -68,9 +68,6 @@ struct Paint {
 
 void paint_page(ImDrawList& list, const Page& page, const Paint& paint);
 
-/// The largest area inside `room`, centered, with the aspect ratio of width and height.
-Rect fitted_scene(const Rect& room, float width, float height);
-
 class SceneOnScreen {
  public:
   explicit SceneOnScreen(const ViewSetup& setup) : drawing_(setup), shown_m_(setup.shown_m) {}
@@ -79,7 +76,7 @@ class SceneOnScreen {
   const Image& draw(const ViewFrame& shown);
 
   /// Sets the page's area for the scene; none: no scene.
-  void place(const std::optional<Rect>& room);
+  void place(const std::optional<Rect>& space);
   /// The scene's area; none: no scene, or nothing was drawn yet.
   const std::optional<Rect>& area() const { return area_; }
   /// The displayed part, as fractions of the frame.
@@ -101,7 +98,7 @@ class SceneOnScreen {
   Eigen::Vector2d frame_pixel(float x, float y) const;
   float scale() const { return area_->width / part_px_.width; }
   void find_part();
-  void fill_room(const Rect& room);
+  void fill_space(const Rect& space);
 
   SceneDrawing drawing_;
   std::optional<Eigen::AlignedBox3d> shown_m_;

@@ -42,11 +42,11 @@ int line_with(char32_t code, const std::string& file) {
   return 0;
 }
 
-void tell_lacking(const std::vector<LackingCharacter>& lacking, const std::string& file,
+void tell_lacking(const std::vector<MissingCharacter>& lacking, const std::string& file,
                   WordFaults& faults) {
   if (!lacking.empty())
     faults.mistakes.push_back(
-        {{file, line_with(lacking.front().code, file), 0}, without_font(lacking)});
+        {{file, line_with(lacking.front().code, file), 0}, missing_characters_message(lacking)});
 }
 
 // The texts of a session, and the file of each page.
@@ -74,8 +74,8 @@ SessionWords words_of(const Protocol& protocol, const std::string& protocol_file
 }
 
 void tell_lacking(const SessionWords& words, WordFaults& faults) {
-  std::map<std::string, std::vector<LackingCharacter>> by_file;
-  for (const LackingCharacter& one : characters_without_font(words.texts))
+  std::map<std::string, std::vector<MissingCharacter>> by_file;
+  for (const MissingCharacter& one : missing_characters(words.texts))
     by_file[words.file_of(one.text.substr(0, one.text.find('.')))].push_back(one);
   for (const auto& [file, lacking] : by_file) tell_lacking(lacking, file, faults);
 }
@@ -83,7 +83,7 @@ void tell_lacking(const SessionWords& words, WordFaults& faults) {
 
 WordFaults faults_in_words(const ScreenTexts& texts, const std::string& file) {
   WordFaults faults;
-  tell_lacking(characters_without_font(texts), file, faults);
+  tell_lacking(missing_characters(texts), file, faults);
   for (const std::string& sentence : misfits(texts, 1))
     faults.cautions.push_back(on_smallest_screen(sentence));
   // With the largest letters, only what does not fit either in small ones.

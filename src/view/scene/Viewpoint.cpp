@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 using Eigen::Vector4d;
 
 constexpr std::size_t table_limit = 5;
-constexpr double nearest_m = 0.02;          // nothing nearer to the lens is drawn
-constexpr double table_tolerance_m = 1e-4;  // prevents rounding from hiding what lies on the table
+constexpr double nearest_m = 0.02;          // distance from the lens below which nothing is drawn
+constexpr double table_tolerance_m = 1e-4;  // keeps rounding from hiding points on the table
 constexpr double straight_enough_px = 0.1;
 constexpr int most_pieces = 8;
 
@@ -108,8 +108,8 @@ int Viewpoint::pieces(const Vector3d& from_board_m, const Vector3d& to_board_m) 
   const double length_px = along.norm();
   if (length_px < 1) return 1;
   const double bend_px = std::abs(along.x() * part.y() - along.y() * part.x()) / length_px;
-  const double needed =
-      std::ceil(std::sqrt(bend_px / straight_enough_px));  // the error falls as 1 / n^2
+  // The error of n pieces falls as 1 / n^2.
+  const double needed = std::ceil(std::sqrt(bend_px / straight_enough_px));
   return std::clamp(static_cast<int>(needed), 1, most_pieces);
 }
 

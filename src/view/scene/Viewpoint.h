@@ -29,7 +29,6 @@ class Viewpoint {
 
   /// Moves the camera. Call before projecting.
   void place(const Pose& camera_from_board);
-  const Pose& camera_from_board() const { return camera_from_board_; }
 
   Corner corner(const Eigen::Vector3d& board_m, double darkness = 0) const;
 

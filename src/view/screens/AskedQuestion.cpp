@@ -16,16 +16,16 @@ int rows_of(int n, int n_columns) {
 }
 }  // namespace
 
-void AskedQuestion::add_answers(const Rect& room) {
+void AskedQuestion::add_answers(const Rect& area) {
   switch (question.kind) {
     case QuestionKind::choice:
-      return add_choices(room);
+      return add_choices(area);
     case QuestionKind::likert:
-      return add_points(room);
+      return add_points(area);
     case QuestionKind::slider:
-      return add_slider(room);
+      return add_slider(area);
     case QuestionKind::number:
-      return add_keypad(room);
+      return add_keypad(area);
     case QuestionKind::text:
       return;  // answered to the experimenter
   }
@@ -59,14 +59,14 @@ int AskedQuestion::points_beside() const {
 }
 
 // The i-th cell of a grid, in reading direction; scales and keypads always start at the left.
-Rect AskedQuestion::cell(const Rect& room, int i, int n_beside, bool as_read) const {
+Rect AskedQuestion::cell(const Rect& area, int i, int n_beside, bool as_read) const {
   const float gap = builder.measures.gap, n = static_cast<float>(n_beside);
-  const float width = (room.width - (n - 1) * gap) / n;
+  const float width = (area.width - (n - 1) * gap) / n;
   int column = i % n_beside;
   if (as_read && builder.typeface.reads_right_to_left()) column = n_beside - 1 - column;
   const auto row = static_cast<float>(i / n_beside);
-  return {room.x + static_cast<float>(column) * (width + gap),
-          room.y + row * (builder.measures.target + gap), width, builder.measures.target};
+  return {area.x + static_cast<float>(column) * (width + gap),
+          area.y + row * (builder.measures.target + gap), width, builder.measures.target};
 }
 
 Effect AskedQuestion::entering(const std::string& value) const {
@@ -81,28 +81,28 @@ Control& AskedQuestion::add_answer(const Rect& place, const std::string& words,
   return button;
 }
 
-void AskedQuestion::add_choices(const Rect& room) {
+void AskedQuestion::add_choices(const Rect& area) {
   for (int i = 0; i < n_choices(); ++i) {
     const AnswerChoice& choice = question.choices[static_cast<std::size_t>(i)];
-    add_answer(cell(room, i, choices_beside(), true), choice.text, choice.value);
+    add_answer(cell(area, i, choices_beside(), true), choice.text, choice.value);
   }
 }
 
 // The labels of the ends above the first and the last button.
-float AskedQuestion::add_ends(const Rect& room) {
+float AskedQuestion::add_ends(const Rect& area) {
   const Measures& m = builder.measures;
   const bool leftward = builder.typeface.reads_right_to_left();
-  const Rect half{room.x, room.y, room.width / 2 - m.gap, 0};
+  const Rect half{area.x, area.y, area.width / 2 - m.gap, 0};
   const auto fitted = [&](const std::string& words) {
     return builder.typeface.fitted(words, m.body, half.width, ends_lines * m.body,
                                    m.least_px(m.body));
   };
   const FittedText first = fitted(question.low), last = fitted(question.high);
   const auto add = [&](const FittedText& words, bool left) {
-    float y = room.y;
+    float y = area.y;
     for (const std::string& line : words.lines) {
       const float width = builder.typeface.width_px(line, words.size_px);
-      const float x = left ? room.x : room.right() - width;
+      const float x = left ? area.x : area.right() - width;
       builder.page.lines.push_back({line, x, y, words.size_px, Tone::soft});
       y += Typeface::line_height_px(words.size_px);
     }
@@ -111,21 +111,21 @@ float AskedQuestion::add_ends(const Rect& room) {
   return std::max(add(first, !leftward), add(last, leftward)) + m.gap;
 }
 
-void AskedQuestion::add_points(const Rect& room) {
-  const float y = add_ends(room);
+void AskedQuestion::add_points(const Rect& area) {
+  const float y = add_ends(area);
   for (int i = 0; i < n_points(); ++i) {
     const std::string point = std::to_string(question.from + i);
-    add_answer(cell({room.x, y, room.width, 0}, i, points_beside(), true), point, point);
+    add_answer(cell({area.x, y, area.width, 0}, i, points_beside(), true), point, point);
   }
 }
 
 // A tap sets the slider; the two buttons below move it slightly.
-void AskedQuestion::add_slider(const Rect& room) {
+void AskedQuestion::add_slider(const Rect& area) {
   const Measures& m = builder.measures;
-  const float y = add_ends(room);
+  const float y = add_ends(area);
   const bool leftward = builder.typeface.reads_right_to_left();
   Control& scale =
-      builder.add_button(question.key + "_scale", {room.x, y, room.width, m.target}, "",
+      builder.add_button(question.key + "_scale", {area.x, y, area.width, m.target}, "",
                          Slide{builder.entry_key(question.key), leftward, in_trial});
   scale.slide = SliderValue{std::nullopt};
   if (given.empty()) return;
@@ -133,7 +133,7 @@ void AskedQuestion::add_slider(const Rect& room) {
   scale.slide->fraction = static_cast<float>(leftward ? 100 - value : value) / 100;
   for (const int by : {-1, 1}) {
     const bool left = (by < 0) != leftward;
-    const Rect place{left ? room.x : room.right() - m.target, y + m.target + m.gap, m.target,
+    const Rect place{left ? area.x : area.right() - m.target, y + m.target + m.gap, m.target,
                      m.target};
     builder.add_button(question.key + (by < 0 ? "_less" : "_more"), place, by < 0 ? "−" : "+",
                        entering(std::to_string(std::clamp(value + by, 0, 100))));
@@ -141,17 +141,17 @@ void AskedQuestion::add_slider(const Rect& room) {
 }
 
 // The typed number, and the range at the other end of its line.
-float AskedQuestion::add_typed(const Rect& room) {
+float AskedQuestion::add_typed(const Rect& area) {
   const Measures& m = builder.measures;
   const std::string range = fmt::format("{} – {}", question.least, question.most);
-  builder.page.lines.push_back({range, room.right() - builder.typeface.width_px(range, m.body),
-                                room.y + m.title - m.body, m.body, Tone::soft});
-  return builder.add_lines({given.empty() ? "–" : given}, room, room.y, m.title);
+  builder.page.lines.push_back({range, area.right() - builder.typeface.width_px(range, m.body),
+                                area.y + m.title - m.body, m.body, Tone::soft});
+  return builder.add_lines({given.empty() ? "–" : given}, area, area.y, m.title);
 }
 
-void AskedQuestion::add_keypad(const Rect& room) {
+void AskedQuestion::add_keypad(const Rect& area) {
   constexpr std::array keys{"1", "2", "3", "4", "5", "6", "7", "8", "9", "0", "."};
-  const Rect below{room.x, add_typed(room), room.width, 0};
+  const Rect below{area.x, add_typed(area), area.width, 0};
   for (int i = 0; i < static_cast<int>(keys.size()); ++i) {
     const std::string key = keys[static_cast<std::size_t>(i)];
     const auto longer = typed_on(question, given, key);

@@ -16,7 +16,7 @@ class AskedQuestion {
   AskedQuestion(PageBuilder& on, const FormQuestion& asked, const std::string& answer, AskedIn in)
       : builder(on), question(asked), given(answer), in_trial(in == AskedIn::trial) {}
 
-  void add_answers(const Rect& room);
+  void add_answers(const Rect& area);
   /// Height of the texts above the buttons, px.
   float above_px() const;
   /// Number of rows of buttons.
@@ -28,15 +28,15 @@ class AskedQuestion {
   int choices_beside() const;
   int points_beside() const;
   int keys_beside() const { return in_trial ? 3 : 6; }
-  Rect cell(const Rect& room, int i, int n_beside, bool as_read) const;
+  Rect cell(const Rect& area, int i, int n_beside, bool as_read) const;
   Effect entering(const std::string& value) const;
   Control& add_answer(const Rect& place, const std::string& words, const std::string& value);
-  void add_choices(const Rect& room);
-  float add_ends(const Rect& room);
-  void add_points(const Rect& room);
-  void add_slider(const Rect& room);
-  float add_typed(const Rect& room);
-  void add_keypad(const Rect& room);
+  void add_choices(const Rect& area);
+  float add_ends(const Rect& area);
+  void add_points(const Rect& area);
+  void add_slider(const Rect& area);
+  float add_typed(const Rect& area);
+  void add_keypad(const Rect& area);
 
   PageBuilder& builder;
   const FormQuestion& question;

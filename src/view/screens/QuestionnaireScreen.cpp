@@ -31,16 +31,17 @@ void leave_number(PageBuilder& builder, const FormQuestion& question, const std:
 
 int first_open_question(const Questionnaire& form, const std::string& prefix,
                         const std::map<std::string, std::string>& entries) {
-  const auto is_told = [](const FormQuestion& q) { return q.kind == QuestionKind::text; };
+  const auto is_spoken = [](const FormQuestion& q) { return q.kind == QuestionKind::text; };
   const auto is_open = [&](const FormQuestion& question) {
     const auto given = entries.find(prefix + question.key);
-    return !is_told(question) && (given == entries.end() || !takes_answer(question, given->second));
+    return !is_spoken(question) &&
+           (given == entries.end() || !takes_answer(question, given->second));
   };
   const auto& all = form.questions;
   auto open = std::ranges::find_if(all, is_open);
   if (open == all.end() && open != all.begin()) --open;
-  while (open != all.begin() && is_told(*std::prev(open)))
-    --open;  // perhaps not answered to the experimenter yet
+  // The experimenter may not have typed the answers to spoken questions just before it yet.
+  while (open != all.begin() && is_spoken(*std::prev(open))) --open;
   return static_cast<int>(open - all.begin());
 }
 

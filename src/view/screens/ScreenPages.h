@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiment/ScreenState.h"
@@ -26,6 +27,11 @@ struct ScreenMemory {
   bool has_declined = false;                   ///< consent: declined once, and came back
   double up_s = 0;                             ///< how long the part or question has been displayed
 };
+
+/// A touch without an answer: turns the page, or requests something.
+Touch touch_of(TouchKind kind);
+/// A touch that sets an entry of a form.
+Touch entry_touch(std::string_view key, std::string_view value);
 
 class PageBuilder {
  public:
@@ -69,7 +75,9 @@ class PageBuilder {
   const Questionnaire& questionnaire() const { return texts_.questionnaires.at(state.form); }
   /// Key of a questionnaire's entry in the log.
   std::string entry_key(const std::string& question) const { return state.form_prefix + question; }
-  Touch entry(const std::string& question, const std::string& value) const;
+  Touch entry(const std::string& question, const std::string& value) const {
+    return entry_touch(entry_key(question), value);
+  }
 
   Page page;
   const ScreenState& state;
@@ -81,9 +89,6 @@ class PageBuilder {
  private:
   const ScreenTexts& texts_;
 };
-
-/// A touch without an answer: turns the page, or requests something.
-Touch touch_of(TouchKind kind);
 
 inline constexpr char key_enter = '\r', key_backspace = '\b';
 

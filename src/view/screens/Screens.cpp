@@ -88,9 +88,9 @@ Control& PageBuilder::add_primary(std::string name, const Rect& area, std::strin
   return control;
 }
 
-Touch PageBuilder::entry(const std::string& question, const std::string& value) const {
+Touch entry_touch(std::string_view key, std::string_view value) {
   Touch touch = touch_of(TouchKind::entry);
-  touch.key = entry_key(question);
+  touch.key = key;
   touch.value = value;
   return touch;
 }

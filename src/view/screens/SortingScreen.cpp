@@ -66,7 +66,7 @@ void mark_cubes(PageBuilder& builder, const Labels& given) {
   }
 }
 
-// Each label in a row of its button if there is space; ranks like the cubes.
+// Up to three labels have a row each; more are arranged like the cubes.
 void add_labels(PageBuilder& builder, const Labels& given, const Rect& first_row) {
   const auto labels = Sorting::labels_for(builder.state.n_slots);
   const int n = builder.state.n_slots, n_beside = n <= 3 ? 1 : in_a_row(n);

@@ -85,13 +85,6 @@ const std::array how_decided{Question{"basis", {"seen", "felt", "both", "guessed
                              Question{"certainty", {"very", "fairly", "little", "none"}},
                              Question{"movement", {"slow", "fast", "varied", "unaware"}}};
 
-Touch entry(std::string_view key, std::string_view value) {
-  Touch touch = touch_of(TouchKind::entry);
-  touch.key = key;
-  touch.value = value;
-  return touch;
-}
-
 // Writes the question above its choices, at a size that leaves space for them.
 // @return the bottom of the question
 float add_question(PageBuilder& builder, const std::string& page, const Question& question,
@@ -120,7 +113,7 @@ void add_choices(PageBuilder& builder, const std::string& page, const Question& 
                      top + static_cast<float>(i / 2) * (m.target + m.gap), width, m.target};
     const std::string name = fmt::format("{}_{}", question.key, value);
     builder
-        .add_button(name, place, builder.text(page, name), entry(question.key, value),
+        .add_button(name, place, builder.text(page, name), entry_touch(question.key, value),
                     static_cast<char>('1' + i))
         .chosen = value == chosen;
   }

@@ -15,10 +15,7 @@ Effect slid_to(const Slide& slide, float fraction) {
   const float set = slide.from_the_right ? 1 - fraction : fraction;
   const std::string value = std::to_string(std::lround(most * std::clamp(set, 0.f, 1.f)));
   if (slide.typed) return Typed{slide.key, value};
-  Touch touch = touch_of(TouchKind::entry);
-  touch.key = slide.key;
-  touch.value = value;
-  return touch;
+  return entry_touch(slide.key, value);
 }
 }  // namespace
 

@@ -52,7 +52,7 @@ Object<PangoContext> context_of(PangoFontMap* fonts, const std::string& language
 }
 
 // Characters without ink: spaces, and marks that join or direct letters.
-bool is_unseen(gunichar c) {
+bool has_no_ink(gunichar c) {
   if (g_unichar_isspace(c)) return true;
   const GUnicodeType type = g_unichar_type(c);
   return type == G_UNICODE_CONTROL || type == G_UNICODE_FORMAT || (c >= 0xFE00 && c <= 0xFE0F);
@@ -128,7 +128,7 @@ class PangoLetters final : public Letters {
     constexpr float any_size_px = 20;
     std::vector<char32_t> missing;
     for (const gunichar c : characters_of(text)) {
-      if (is_unseen(c) || !asked_.insert(c).second) continue;
+      if (has_no_ink(c) || !checked_.insert(c).second) continue;
       char letter[7] = {};
       g_unichar_to_utf8(c, letter);
       const Object<PangoLayout> one = layout({letter, any_size_px, {}});
@@ -170,7 +170,7 @@ class PangoLetters final : public Letters {
 
   Object<PangoFontMap> fonts_;
   Object<PangoContext> context_;
-  mutable std::set<gunichar> asked_, missing_;
+  mutable std::set<gunichar> checked_, missing_;
 };
 }  // namespace
 

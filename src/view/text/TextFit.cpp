@@ -40,36 +40,35 @@ std::vector<ScreenState> states(const ScreenTexts& texts) {
 class FitCheck {
  public:
   FitCheck(const ScreenTexts& texts, const Measures& measures)
-      : measures_(measures), typeface_(Typeface::whatever_lacks(texts)), screens_(texts, false) {}
+      : measures_(measures), typeface_(Typeface::for_measuring(texts)), screens_(texts, false) {}
 
-  void look_at(const ScreenState& state) {
+  void check(const ScreenState& state) {
     screens_.show(state, true);
     name_ = text_page(state);
     constexpr int most_parts = 100;
-    for (int i = 0; i < most_parts && look_at(screens_.page(typeface_, measures_)); ++i) continue;
+    for (int i = 0; i < most_parts && check(screens_.page(typeface_, measures_)); ++i) continue;
   }
 
   std::vector<std::string> found;
 
  private:
   // @return whether another part was shown
-  bool look_at(const Page& page) {
+  bool check(const Page& page) {
     for (const Control& control : page.controls) {
       const ControlWords words = words_on(control, typeface_, measures_);
-      look_at(control.text, words.text, words.text_area, "on its button");
-      if (!control.note.empty())
-        look_at(control.note, words.note, words.note_area, "on its button");
+      check(control.text, words.text, words.text_area, "on its button");
+      if (!control.note.empty()) check(control.note, words.note, words.note_area, "on its button");
     }
-    for (const TextLine& line : page.lines) look_at(line, page);
+    for (const TextLine& line : page.lines) check(line, page);
     if (page.scene && !page.notice.empty()) {
       const NoticeWords notice = words_of_notice(page.notice, *page.scene, typeface_, measures_);
-      look_at(page.notice, notice.text, notice.area, "over the scene");
+      check(page.notice, notice.text, notice.area, "over the scene");
     }
     return turned(page);
   }
 
-  void look_at(const std::string& text, const FittedText& words, const Rect& area,
-               std::string_view where) {
+  void check(const std::string& text, const FittedText& words, const Rect& area,
+             std::string_view where) {
     const bool wide = std::ranges::any_of(words.lines, [&](const std::string& line) {
       return typeface_.width_px(line, words.size_px) > area.width;
     });
@@ -80,7 +79,7 @@ class FitCheck {
       add_sentence(text, fmt::format("fits {} only in small letters", where));
   }
 
-  void look_at(const TextLine& line, const Page& page) {
+  void check(const TextLine& line, const Page& page) {
     const Rect area{line.x, line.y, typeface_.width_px(line.text, line.size_px), line.size_px};
     const Rect window{0, 0, measures_.width, measures_.height};
     const bool inside =
@@ -119,9 +118,9 @@ Measures smallest_screen(double text_size) {
 }
 
 std::vector<std::string> texts_that_do_not_fit(const ScreenTexts& texts, const Measures& measures) {
-  FitCheck check(texts, measures);
-  for (const ScreenState& state : states(texts)) check.look_at(state);
-  return check.found;
+  FitCheck fit(texts, measures);
+  for (const ScreenState& state : states(texts)) fit.check(state);
+  return fit.found;
 }
 
 ControlWords words_on(const Control& control, const Typeface& typeface, const Measures& measures) {

@@ -40,8 +40,8 @@ Direction direction_of(const ScreenTexts& texts, const Letters& letters) {
   return balance > 0 ? Direction::right_to_left : Direction::left_to_right;
 }
 
-std::vector<LackingCharacter> lacking(const ScreenTexts& texts, const Letters& letters) {
-  std::vector<LackingCharacter> all;
+std::vector<MissingCharacter> find_missing(const ScreenTexts& texts, const Letters& letters) {
+  std::vector<MissingCharacter> all;
   std::set<char32_t> reported;
   for (const auto& [page, keys] : texts.pages)
     for (const auto& [key, text] : keys)
@@ -50,14 +50,14 @@ std::vector<LackingCharacter> lacking(const ScreenTexts& texts, const Letters& l
   return all;
 }
 
-std::string listed(const std::vector<LackingCharacter>& characters) {
-  constexpr std::size_t most_told = 6;
+std::string listed(const std::vector<MissingCharacter>& characters) {
+  constexpr std::size_t most_listed = 6;
   std::string list;
-  for (std::size_t i = 0; i < std::min(most_told, characters.size()); ++i)
+  for (std::size_t i = 0; i < std::min(most_listed, characters.size()); ++i)
     list += fmt::format("{}U+{:04X} in {}", i > 0 ? ", " : "",
                         static_cast<unsigned>(characters[i].code), characters[i].text);
-  if (characters.size() > most_told)
-    list += fmt::format(" and {} more", characters.size() - most_told);
+  if (characters.size() > most_listed)
+    list += fmt::format(" and {} more", characters.size() - most_listed);
   return list;
 }
 
@@ -72,15 +72,15 @@ const Value& remembered(std::map<Key, Value>& memory, const Key& key, const Make
 Typeface::Typeface(const ScreenTexts& texts, std::shared_ptr<const Letters> letters)
     : letters_(std::move(letters)), direction_(direction_of(texts, *letters_)) {}
 
-Typeface::Typeface(const ScreenTexts& texts) : Typeface(whatever_lacks(texts)) {
-  const auto missing = lacking(texts, *letters_);
+Typeface::Typeface(const ScreenTexts& texts) : Typeface(for_measuring(texts)) {
+  const auto missing = find_missing(texts, *letters_);
   if (missing.empty()) return;
   throw Error(fmt::format("the text file in the language \"{}\" has {}", texts.language,
-                          without_font(missing)),
+                          missing_characters_message(missing)),
               ExitCode::invalid_file);
 }
 
-Typeface Typeface::whatever_lacks(const ScreenTexts& texts) {
+Typeface Typeface::for_measuring(const ScreenTexts& texts) {
   return {texts, make_letters(texts.language)};
 }
 
@@ -122,15 +122,15 @@ FittedText Typeface::fitted(const std::string& text, float size_px, float width,
   return fit;
 }
 
-std::string without_font(const std::vector<LackingCharacter>& characters) {
+std::string missing_characters_message(const std::vector<MissingCharacter>& characters) {
   return fmt::format(
       "characters that no installed font has: {}; install a font with them (Debian: apt-get "
       "install fonts-dejavu-core, fonts-noto-core or fonts-noto-cjk), or use other characters",
       listed(characters));
 }
 
-std::vector<LackingCharacter> characters_without_font(const ScreenTexts& texts) {
-  return lacking(texts, *make_letters(texts.language));
+std::vector<MissingCharacter> missing_characters(const ScreenTexts& texts) {
+  return find_missing(texts, *make_letters(texts.language));
 }
 
 }  // namespace heft

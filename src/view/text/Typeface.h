@@ -20,7 +20,7 @@ struct FittedText {
 };
 
 /// A character that no installed font has, and the first text with it ("welcome.title").
-struct LackingCharacter {
+struct MissingCharacter {
   char32_t code = 0;
   std::string text;
 };
@@ -31,7 +31,7 @@ class Typeface {
   explicit Typeface(const ScreenTexts& texts);
 
   /// For measuring only: a character without a font is as wide as its replacement box.
-  static Typeface whatever_lacks(const ScreenTexts& texts);
+  static Typeface for_measuring(const ScreenTexts& texts);
 
   float width_px(const std::string& line, float size_px) const;
   static float line_height_px(float size_px) { return 1.3f * size_px; }
@@ -63,10 +63,10 @@ class Typeface {
   mutable std::map<std::pair<WrittenLine, float>, std::vector<std::string>> wrapped_;
 };
 
-/// Lists the characters and what can be done.
-std::string without_font(const std::vector<LackingCharacter>& characters);
+/// Lists the characters and what to do about them.
+std::string missing_characters_message(const std::vector<MissingCharacter>& characters);
 
-/// In the texts' order, each once.
-std::vector<LackingCharacter> characters_without_font(const ScreenTexts& texts);
+/// Characters that no installed font has, in the texts' order, each once.
+std::vector<MissingCharacter> missing_characters(const ScreenTexts& texts);
 
 }  // namespace heft
