@@ -1,4 +1,4 @@
-// Every screen of the participant in every state that looks different, for tests of the window.
+// Every screen of the participant in every visually different state, for tests.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@
 
 namespace heft {
 
-/// To a hundredth of a pixel.
+/// With a tolerance of a hundredth of a pixel.
 inline bool inside(const Rect& inner, const Rect& outer) {
   constexpr float rounding = 0.01f;
   return inner.x >= outer.x - rounding && inner.y >= outer.y - rounding &&
@@ -33,7 +33,7 @@ inline ScreenTexts shipped_texts(const std::string& language) {
   return load_texts(source_folder() + "/protocols/texts/" + language + ".toml");
 }
 
-/// Those that are shipped, and those for tests of other scripts.
+/// Shipped texts, or texts of the tests in other scripts.
 inline ScreenTexts texts_in(const std::string& language) {
   if (language == "en" || language == "fr") return shipped_texts(language);
   return load_texts(source_folder() + "/tests/texts/" + language + ".toml");
@@ -114,8 +114,7 @@ inline std::vector<NamedScreen> trial_screens() {
           {"comparison_fading", fading}};
 }
 
-/// What each task says of its own screens at their fullest, where the texts have its words: before
-/// the cubes are there, and with them.
+/// The fullest screens of each task that the texts include, with and without cubes.
 inline std::vector<NamedScreen> task_screens(const ScreenTexts& texts) {
   std::vector<NamedScreen> all;
   for (const Task task : words_of<Task>()) {
@@ -138,7 +137,7 @@ inline std::vector<NamedScreen> every_screen(const ScreenTexts& texts) {
   return all;
 }
 
-/// The paper's cubes side by side, and the effector before them.
+/// The paper's cubes side by side, and the effector in front of them.
 inline ViewSetup setup_for(const std::string& language, int n_cubes = 3) {
   ViewSetup setup;
   setup.texts = texts_in(language);

@@ -1,4 +1,4 @@
-// Pictures to draw and ways to look at what was drawn.
+// Scenes to draw, and functions that examine the drawn pixels.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace heft::test {
 
-/// A lens whose corners are bent by tens of pixels.
+/// A lens with a distortion of tens of pixels in the corners.
 inline Intrinsics strong_lens() {
   Intrinsics camera;
   camera.distortion = {-0.28, 0.09, 0.002, -0.0015, 0, 0, 0, 0};
@@ -42,7 +42,7 @@ inline ViewSetup setup_with(const std::optional<Intrinsics>& camera) {
   return setup;
 }
 
-/// Three cubes on their slots, nothing else, over a gray picture.
+/// Three cubes on their slots over a gray picture.
 inline ViewFrame three_cubes(const ViewSetup& setup) {
   ViewFrame shown;
   for (const auto& slot_m : setup.stage.slots_m)

@@ -7,7 +7,7 @@ namespace heft {
 namespace {
 using namespace heft::test;
 
-// Pixels that differ from the frame without anything drawn over it and lean to a color.
+// Pixels of a color that differ from the frame without drawings.
 int count(const Image& image, bool (*leans)(const Bgr&)) {
   int n = 0;
   for (int y = 0; y < image.height; ++y)
@@ -33,7 +33,7 @@ class OtherClone : public testing::Test {
   ViewFrame shown = three_cubes(setup);
 };
 
-TEST_F(OtherClone, BothAreSeenEachInItsColor) {
+TEST_F(OtherClone, BothClonesAreDrawnInTheirColors) {
   const Image alone = drawing.draw(shown);
   shown.other_clone = pointing_away(0.05, -0.05);
   const Image both = drawing.draw(shown);
@@ -43,7 +43,7 @@ TEST_F(OtherClone, BothAreSeenEachInItsColor) {
   EXPECT_NEAR(count(both, purple), count(both, blue), 0.3 * count(both, blue));
 }
 
-TEST_F(OtherClone, AFrameWithoutOneIsDrawnAsBefore) {
+TEST_F(OtherClone, FrameWithoutOtherCloneIsUnchanged) {
   const Image before = drawing.draw(shown);
   shown.other_clone = pointing_away(0.05, -0.05);
   drawing.draw(shown);

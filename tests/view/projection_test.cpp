@@ -1,5 +1,4 @@
-// Virtual things sit where the lens would put real ones: a drawn cube's outline against OpenCV's
-// own projection of its edges.
+// Compares a drawn cube's outline with OpenCV's projection of its edges through the lens.
 #include <gmock/gmock.h>
 
 #include <opencv2/calib3d.hpp>
@@ -31,7 +30,7 @@ std::vector<cv::Point2f> projected(const Intrinsics& camera, const Pose& camera_
   return {pixels.begin(), pixels.end()};
 }
 
-// The outlines of a cube's faces, forty points a side.
+// The outlines of a cube's faces, forty points per side.
 std::vector<std::vector<Vector3d>> face_outlines(const Pose& cube, double size_m) {
   std::vector<std::vector<Vector3d>> outlines;
   const std::array<std::pair<double, double>, 4> turn{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
@@ -52,8 +51,8 @@ std::vector<std::vector<Vector3d>> face_outlines(const Pose& cube, double size_m
   return outlines;
 }
 
-// How far a pixel is inside the cube's picture; negative: outside. A convex body's picture is the
-// union of its faces'.
+// Depth of a pixel inside the cube's projection, which is the union of its faces' projections;
+// negative: outside.
 class Silhouette {
  public:
   Silhouette(const Intrinsics& camera, const Pose& camera_from_board, const Pose& cube,
@@ -74,7 +73,7 @@ class Silhouette {
 
  private:
   std::vector<std::vector<cv::Point2f>> faces_;
-  cv::Rect bounds_;  // ten pixels around them all
+  cv::Rect bounds_;  // with a margin of ten pixels
 };
 
 struct View {
@@ -100,7 +99,7 @@ std::vector<View> several_views() {
           {"rational", rational, near},           {"1280 x 720", wide, above}};
 }
 
-// The picture is gray and so are shadows; whatever is colored is the cube.
+// Picture and shadows are gray, so that every colored pixel belongs to the cube.
 int color_at(const Image& drawn, int x, int y) {
   const Bgr bgr = at(drawn, x, y);
   return bgr.red - bgr.blue;
@@ -132,28 +131,28 @@ void expect_cube_where_projected(const View& view, const Pose& cube, double size
   EXPECT_GT(n_inside, 300) << view.name;
 }
 
-TEST(Projection, ACubesOutlineAgreesWithOpenCVsProjection) {
+TEST(Projection, OutlineOfCubeAgreesWithOpenCv) {
   for (const View& view : several_views()) {
     expect_cube_where_projected(view, upright_pose({0.01, 0.02, 0.0175}, 0.4));
     expect_cube_where_projected(view, upright_pose({-0.07, 0.05, 0.0175}, 0));
   }
 }
 
-// Cut off by the border, where lenses bend most.
-TEST(Projection, ACubeAtThePicturesBorderAgreesToo) {
+// Clipped by the border, where lens distortion is largest.
+TEST(Projection, OutlineOfCubeAtBorderAgreesWithOpenCv) {
   const View view{"border", strong_lens(), camera_looking_down(0.9)};
   expect_cube_where_projected(view, upright_pose({0.255, 0.02, 0.0175}, 0.3));
   expect_cube_where_projected(view, upright_pose({0.21, -0.14, 0.0175}, 0.3));
 }
 
-// Drawn with straight edges it would miss by pixels.
-TEST(Projection, EdgesOfALargeBodyBendAsTheLensBendsThem) {
+// Straight edges would be wrong by pixels.
+TEST(Projection, EdgesOfLargeBodyFollowLensDistortion) {
   const View view{"large", strong_lens(), camera_looking_down(0.9)};
   expect_cube_where_projected(view, upright_pose({0, 0, 0.06}, 0.1), 0.12);
 }
 
-// A lens's polynomial turns around somewhere outside the picture and would bring back far things.
-TEST(Projection, NothingBesideTheViewIsFoldedBackIntoIt) {
+// A distortion polynomial is not monotonic far outside the picture and would fold points back.
+TEST(Projection, PointsOutsideTheViewAreNotFoldedBack) {
   Intrinsics folding;
   folding.distortion = {0.06, -0.15};
   const Pose straight_down = camera_looking_down(M_PI / 2, 0.3);

@@ -1,4 +1,4 @@
-// Questionnaires on the screen: whether every question fits, and what taps on it are.
+// Questionnaires on the screen: whether every question fits, and the touches of taps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +35,7 @@ ScreenState asked(const std::string& name, std::map<std::string, std::string> en
   return state;
 }
 
-// A questionnaire under a finger, on a made-up clock.
+// A questionnaire that is tapped, with simulated times.
 struct Form {
   explicit Form(const ScreenState& state, Measures window = {1024, 600},
                 const std::string& language = "en")
@@ -52,7 +52,7 @@ struct Form {
     return nullptr;
   }
 
-  /// Where of its width.
+  /// Tapped position, as a fraction of the control's width.
   std::vector<Touch> tap(const std::string& name, float at = 0.5f) {
     const Rect area = control(name)->area;
     const float x = area.x + at * area.width, y = area.y + area.height / 2;
@@ -98,7 +98,7 @@ TEST(QuestionnaireScreen, EveryQuestionFitsEveryScreen) {
        {Measures{1024, 600}, {1280, 800}, {1920, 1080}, {800, 1280}, {1024, 600, 1.3f}})
     for (const char* language : {"en", "ar"})
       for (const auto& [name, questionnaire] : texts_with_questionnaires().questionnaires) {
-        // Answered, so that all buttons are there.
+        // Answered, so that all buttons exist.
         std::map<std::string, std::string> entries;
         for (const FormQuestion& question : questionnaire.questions)
           entries["sorting." + name + '.' + question.key] = "5";
@@ -113,7 +113,7 @@ TEST(QuestionnaireScreen, EveryQuestionFitsEveryScreen) {
       }
 }
 
-TEST(QuestionnaireScreen, OfTheShippedOnesNothingIsTooLargeForTheSmallestScreen) {
+TEST(QuestionnaireScreen, ShippedQuestionnairesFitTheSmallestScreen) {
   for (const char* language : {"en", "fr"}) {
     const ScreenTexts texts = texts_with_questionnaires(language);
     EXPECT_THAT(texts_that_do_not_fit(texts, smallest_screen()), IsEmpty());
@@ -122,7 +122,7 @@ TEST(QuestionnaireScreen, OfTheShippedOnesNothingIsTooLargeForTheSmallestScreen)
   }
 }
 
-TEST(QuestionnaireScreen, ComesBackToANumberThatWasBeingTyped) {
+TEST(QuestionnaireScreen, IncompleteNumberIsAskedAgain) {
   FormQuestion number, likert;
   number.key = "n";
   number.kind = QuestionKind::number;
@@ -136,21 +136,21 @@ TEST(QuestionnaireScreen, ComesBackToANumberThatWasBeingTyped) {
   EXPECT_EQ(first_open_question(form, "q.", {{"q.n", "12"}}), 1);
 }
 
-TEST(QuestionnaireScreen, ComesBackBehindWhatWasToldToTheExperimenter) {
-  FormQuestion told, likert;
-  told.key = "t";
-  told.kind = QuestionKind::text;
+TEST(QuestionnaireScreen, SpokenQuestionsBeforeAnOpenOneAreAskedAgain) {
+  FormQuestion spoken, likert;
+  spoken.key = "t";
+  spoken.kind = QuestionKind::text;
   likert.key = "l";
   likert.kind = QuestionKind::likert;
   FormQuestion last = likert;
   last.key = "m";
-  const Questionnaire form{"T", "", {told, likert, last}};
+  const Questionnaire form{"T", "", {spoken, likert, last}};
   EXPECT_EQ(first_open_question(form, "q.", {}), 0);
   EXPECT_EQ(first_open_question(form, "q.", {{"q.l", "3"}}), 2);
-  EXPECT_EQ(first_open_question({"T", "", {likert, told}}, "q.", {{"q.l", "3"}}), 1);
+  EXPECT_EQ(first_open_question({"T", "", {likert, spoken}}, "q.", {{"q.l", "3"}}), 1);
 }
 
-TEST(QuestionnaireScreen, ASliderIsSetWhereItIsTappedAndMovedByOne) {
+TEST(QuestionnaireScreen, SliderIsSetByTapAndMovedByOne) {
   Form form(asked("nasa_tlx"));
   EXPECT_EQ(form.control("next")->text, "Skip");
   EXPECT_EQ(form.control("mental_demand_more"), nullptr) << "nothing to move yet";
@@ -166,23 +166,23 @@ TEST(QuestionnaireScreen, ASliderIsSetWhereItIsTappedAndMovedByOne) {
   EXPECT_EQ(form.tap("mental_demand_more").at(0).value, "100");
 }
 
-TEST(QuestionnaireScreen, ASliderRunsTheWayThatIsRead) {
+TEST(QuestionnaireScreen, SliderRunsInReadingDirection) {
   Form form(asked("nasa_tlx"), {1024, 600}, "ar");
   EXPECT_EQ(form.tap("mental_demand_scale", 0.25f).at(0).value, "75");
   EXPECT_LT(form.control("mental_demand_more")->area.x, form.control("mental_demand_less")->area.x);
 }
 
-TEST(QuestionnaireScreen, APointAndAChoiceAreOneTap) {
+TEST(QuestionnaireScreen, PointAndChoiceTakeOneTap) {
   Form likert(asked("presence"));
   EXPECT_EQ(likert.tap("being_there_7").at(0).value, "7");
   EXPECT_TRUE(likert.control("being_there_7")->chosen);
   EXPECT_EQ(likert.control("being_there_8"), nullptr);
   Form choice(asked("borg_cr10"));
   EXPECT_EQ(choice.tap("exertion_0.5").at(0).value, "0.5");
-  EXPECT_THAT(choice.tap("next"), SizeIs(1)) << "of one question the last";
+  EXPECT_THAT(choice.tap("next"), SizeIs(1)) << "the only question is the last";
 }
 
-// The questionnaire of ownership at its last question, a number from 0 to 1000.
+// The ownership questionnaire at its last question, a number from 0 to 1000.
 std::map<std::string, std::string> all_but_the_number() {
   std::map<std::string, std::string> before;
   for (const char* key : {"ownership", "ownership_control", "agency", "agency_control"})
@@ -190,12 +190,12 @@ std::map<std::string, std::string> all_but_the_number() {
   return before;
 }
 
-TEST(QuestionnaireScreen, ANumberIsTypedOnButtonsAndIsAnAnswerWhenItsQuestionIsLeft) {
+TEST(QuestionnaireScreen, NumberIsAnsweredWhenItsQuestionIsLeft) {
   Form form(asked("ownership", all_but_the_number()));
   ASSERT_NE(form.control("pushes_key_1"), nullptr) << "the first question without an answer";
   for (const char* key : {"1", "1", "0"})
     EXPECT_THAT(form.tap(std::string("pushes_key_") + key), IsEmpty()) << "no answer yet";
-  EXPECT_FALSE(form.control("pushes_key_0")->enabled) << "1100 is more than anybody pushes";
+  EXPECT_FALSE(form.control("pushes_key_0")->enabled) << "1100 is out of range";
   EXPECT_TRUE(form.control("next")->enabled);
   form.tap("pushes_delete");
   const auto left = form.tap("next");
@@ -205,7 +205,7 @@ TEST(QuestionnaireScreen, ANumberIsTypedOnButtonsAndIsAnAnswerWhenItsQuestionIsL
   EXPECT_EQ(left[1].kind, TouchKind::next);
 }
 
-TEST(QuestionnaireScreen, ANumberThatWasErasedBeforeItWasAnAnswerLeavesNone) {
+TEST(QuestionnaireScreen, ErasedNumberIsNoAnswer) {
   Form form(asked("ownership", all_but_the_number()));
   form.tap("pushes_key_1");
   form.tap("pushes_delete");
@@ -215,22 +215,22 @@ TEST(QuestionnaireScreen, ANumberThatWasErasedBeforeItWasAnAnswerLeavesNone) {
   EXPECT_EQ(left[0].kind, TouchKind::next);
 }
 
-TEST(QuestionnaireScreen, ANumberIsToldBeforeAnEarlierQuestionToo) {
+TEST(QuestionnaireScreen, NumberIsReportedWhenGoingBack) {
   Form form(asked("ownership", all_but_the_number()));
   form.tap("pushes_key_7");
   form.tap("pushes_key_.");
   const auto left = form.tap("back");
   ASSERT_THAT(left, SizeIs(1));
-  EXPECT_EQ(left[0].value, "7") << "and the point is none of it";
+  EXPECT_EQ(left[0].value, "7") << "without the final point";
 }
 
-TEST(QuestionnaireScreen, ShowsANumbersRange) {
+TEST(QuestionnaireScreen, RangeOfNumberIsShown) {
   const Form form(asked("ownership", all_but_the_number()));
   EXPECT_THAT(form.screen.page().lines,
               ::testing::Contains(::testing::Field(&TextLine::text, "0 – 1000")));
 }
 
-TEST(QuestionnaireScreen, NoKeyIsTakenThatLeadsOutOfTheRangeForGood) {
+TEST(QuestionnaireScreen, KeyThatCannotLeadIntoTheRangeIsDisabled) {
   FormQuestion number;
   number.kind = QuestionKind::number;
   const auto typed = [&](double least, double most, const std::string& keys) {
@@ -242,7 +242,7 @@ TEST(QuestionnaireScreen, NoKeyIsTakenThatLeadsOutOfTheRangeForGood) {
     return so_far;
   };
   EXPECT_EQ(typed(0, 99, "123456789"), "12");
-  EXPECT_EQ(typed(0, 99, "99.5"), "99.") << "99.0 is one, 99.5 is none";
+  EXPECT_EQ(typed(0, 99, "99.5"), "99.") << "99.0 is in range, 99.5 is not";
   EXPECT_EQ(typed(0, 99, ".333"), "0.333");
   EXPECT_EQ(typed(0, 99, "007"), "7");
   EXPECT_EQ(typed(10, 20, "3"), "") << "with more digits it is 30 or 300";
@@ -252,10 +252,10 @@ TEST(QuestionnaireScreen, NoKeyIsTakenThatLeadsOutOfTheRangeForGood) {
   EXPECT_EQ(typed(0.25, 0.5, ".19"), "0.") << "neither 0.1 nor 0.9";
   EXPECT_EQ(typed(0, 1, "0.1.2"), "0.12");
   EXPECT_EQ(typed(0, 1e12, "1234567890"), "123456789") << "in nine letters";
-  EXPECT_EQ(typed(2e9, 3e9, "2"), "") << "in nine letters it can't be one";
+  EXPECT_EQ(typed(2e9, 3e9, "2"), "") << "not possible in nine letters";
 }
 
-TEST(QuestionnaireScreen, TwoInARowAreTwoPages) {
+TEST(QuestionnaireScreen, TwoQuestionnairesInARowAreTwoPages) {
   Form form(asked("presence"));
   form.tap("being_there_7");
   form.screen.show(asked("ownership"), false);

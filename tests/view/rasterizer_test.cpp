@@ -1,5 +1,4 @@
-// Triangles: which samples they cover, what is in front, and that nothing of a frame stays for
-// the next.
+// Triangles: covered samples, depth, and clearing between frames.
 #include "view/scene/Rasterizer.h"
 
 #include <gmock/gmock.h>
@@ -39,8 +38,8 @@ void fill_rectangle(Rasterizer& rasterizer, Vector2d from, Vector2d to, double n
   rasterizer.fill({a, c, d}, surface);
 }
 
-// Pixel centers are integers, so pixel 10 reaches from 9.5 to 10.5.
-TEST(Rasterizer, PaintsPixelsByTheShareThatIsCovered) {
+// Pixel centers are integers, so that pixel 10 extends from 9.5 to 10.5.
+TEST(Rasterizer, PixelIsPaintedByCoveredShare) {
   Rasterizer rasterizer(frame_w_px, frame_h_px);
   Image frame = gray_frame();
   fill_rectangle(rasterizer, {9.5, 9.5}, {12.0, 11.5}, 1, rasterizer.add_surface(red));
@@ -55,7 +54,7 @@ TEST(Rasterizer, PaintsPixelsByTheShareThatIsCovered) {
   EXPECT_EQ(pixel_of(frame, 10, 12), gray);
 }
 
-TEST(Rasterizer, ShowsWhatIsNearerInWhateverOrderItIsDrawn) {
+TEST(Rasterizer, NearerSurfaceIsVisibleInAnyOrder) {
   for (bool red_first : {true, false}) {
     Rasterizer rasterizer(frame_w_px, frame_h_px);
     Image frame = gray_frame();
@@ -69,7 +68,7 @@ TEST(Rasterizer, ShowsWhatIsNearerInWhateverOrderItIsDrawn) {
   }
 }
 
-TEST(Rasterizer, TellsDepthsApartThatDifferByAHundredthOfAMillimeter) {
+TEST(Rasterizer, DepthResolvesAHundredthOfAMillimeter) {
   Rasterizer rasterizer(frame_w_px, frame_h_px);
   Image frame = gray_frame();
   fill_rectangle(rasterizer, {5, 5}, {20, 20}, 1 / 0.60001, rasterizer.add_surface(green));
@@ -79,7 +78,7 @@ TEST(Rasterizer, TellsDepthsApartThatDifferByAHundredthOfAMillimeter) {
   EXPECT_EQ(pixel_of(frame, 10, 10), (std::array{0, 0, 200}));
 }
 
-TEST(Rasterizer, MixesTranslucentSurfacesWithWhatIsBehindThemOnly) {
+TEST(Rasterizer, TranslucentSurfaceMixesWithSurfacesBehindIt) {
   for (double depth : {0.5, 2.0}) {
     Rasterizer rasterizer(frame_w_px, frame_h_px);
     Image frame = gray_frame();
@@ -92,8 +91,8 @@ TEST(Rasterizer, MixesTranslucentSurfacesWithWhatIsBehindThemOnly) {
   }
 }
 
-// Shade adds up, so a sample drawn twice would be darker and one left out lighter.
-RC_GTEST_PROP(Rasterizer, TrianglesAroundAPointPartASquareWithoutGapOrOverlap, ()) {
+// Shades multiply, so that a sample drawn twice would be darker and a missing one lighter.
+RC_GTEST_PROP(Rasterizer, TrianglesAroundAPointCoverASquareExactlyOnce, ()) {
   RandomStream draws(*rc::gen::arbitrary<std::uint64_t>(), "triangles");
   const auto between = [&](double low, double high) {
     return low + (high - low) * draws.uniform();
@@ -130,7 +129,7 @@ void draw_some(Rasterizer& rasterizer, RandomStream draws) {
   rasterizer.shade(shade);
 }
 
-RC_GTEST_PROP(Rasterizer, ClearedItDrawsAsANewOneDoes, (std::uint64_t seed)) {
+RC_GTEST_PROP(Rasterizer, ClearedRasterizerEqualsANewOne, (std::uint64_t seed)) {
   Rasterizer used(frame_w_px, frame_h_px), fresh(frame_w_px, frame_h_px);
   draw_some(used, RandomStream(seed, "before"));
   used.clear();
@@ -145,7 +144,7 @@ RC_GTEST_PROP(Rasterizer, ClearedItDrawsAsANewOneDoes, (std::uint64_t seed)) {
   RC_ASSERT(one.pixels == other.pixels);
 }
 
-TEST(Rasterizer, FindsTheNearestObjectWithinReach) {
+TEST(Rasterizer, NearestObjectWithinReachIsFound) {
   Rasterizer rasterizer(frame_w_px, frame_h_px);
   fill_rectangle(rasterizer, {5, 5}, {10, 10}, 1, rasterizer.add_surface(red));
   fill_rectangle(rasterizer, {20, 5}, {25, 10}, 1, rasterizer.add_surface(green));
@@ -156,7 +155,7 @@ TEST(Rasterizer, FindsTheNearestObjectWithinReach) {
   EXPECT_EQ(rasterizer.find_object({-1e12, 1e300}, 8), std::nullopt);
 }
 
-TEST(Rasterizer, SurvivesTrianglesFarOutsideAndThoseThatAreNoNumbers) {
+TEST(Rasterizer, FarAndNotANumberCornersAreHandled) {
   Rasterizer rasterizer(frame_w_px, frame_h_px);
   const auto surface = rasterizer.add_surface(red);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -170,7 +169,7 @@ TEST(Rasterizer, SurvivesTrianglesFarOutsideAndThoseThatAreNoNumbers) {
   EXPECT_EQ(pixel_of(frame, frame_w_px - 1, frame_h_px - 1), (std::array{0, 0, 200}));
 }
 
-TEST(Rasterizer, RefusesMoreSurfacesThanItCanTellApart) {
+TEST(Rasterizer, MoreThan255SurfacesAreRefused) {
   Rasterizer rasterizer(frame_w_px, frame_h_px);
   for (int i = 0; i < 255; ++i) rasterizer.add_surface(red);
   EXPECT_THROW(rasterizer.add_surface(red), Error);

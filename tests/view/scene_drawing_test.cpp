@@ -1,4 +1,4 @@
-// What the participant sees: what is in front of what, shadows, backgrounds, and what a touch hits.
+// The drawn scene: depth order, shadows, backgrounds, and objects under a touch.
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -38,7 +38,7 @@ class OverFilm : public testing::Test {
   }
 };
 
-TEST_F(OverFilm, TheFilmIsShownAsItIsWhereNothingIsDrawn) {
+TEST_F(OverFilm, PictureIsUnchangedWhereNothingIsDrawn) {
   RandomStream draws(1, "picture");
   auto picture = gray_picture(*setup.camera);
   for (std::uint8_t& value : picture->pixels) value = static_cast<std::uint8_t>(draws.below(256));
@@ -47,8 +47,8 @@ TEST_F(OverFilm, TheFilmIsShownAsItIsWhereNothingIsDrawn) {
   EXPECT_EQ(drawing.draw(shown).pixels, picture->pixels);
 }
 
-// A hand before a cube hides it and takes no shade; its clone is seen over both.
-TEST_F(OverFilm, WhatTheFilmHasInFrontHidesCubesAndNotTheClone) {
+// A hand in front of a cube hides it and receives no shade; the clone is visible over both.
+TEST_F(OverFilm, MaskHidesCubesButNotTheClone) {
   shown.frame.clone = pointing_away(0, 0.02, 0.06);
   const Eigen::Vector2d left = top_of(1), middle = top_of(2), right = top_of(3);
   const Bgr clone_over_cube = at(drawing.draw(shown), middle),
@@ -67,13 +67,13 @@ TEST_F(OverFilm, WhatTheFilmHasInFrontHidesCubesAndNotTheClone) {
     EXPECT_EQ(at(drawn, x, 240), picture_gray) << "no shade at " << x;
 }
 
-TEST_F(OverFilm, AGrayFilmLooksAsItsGrayInColor) {
+TEST_F(OverFilm, GrayPictureEqualsItsColorVersion) {
   const Image in_color = drawing.draw(shown);
   shown.camera = gray_picture(*setup.camera, 1);
   EXPECT_EQ(drawing.draw(shown).pixels, in_color.pixels);
 }
 
-TEST_F(OverFilm, NothingIsDrawnFarFromTheThings) {
+TEST_F(OverFilm, NothingIsDrawnFarFromTheObjects) {
   const Image& drawn = drawing.draw(shown);
   for (int y = 0; y < drawn.height; ++y) {
     for (int x = 0; x < drawn.width; ++x) {
@@ -85,13 +85,13 @@ TEST_F(OverFilm, NothingIsDrawnFarFromTheThings) {
   }
 }
 
-TEST_F(OverFilm, CubesLookTheSameWhicheverSlotTheyHave) {
+TEST_F(OverFilm, CubesLookTheSameInEverySlot) {
   const Image in_order = drawing.draw(shown);
   std::ranges::reverse(shown.frame.cubes);
   EXPECT_EQ(drawing.draw(shown).pixels, in_order.pixels);
 }
 
-TEST_F(OverFilm, TheCloneHidesACubeOnlyFromInFront) {
+TEST_F(OverFilm, CloneHidesCubeOnlyIfInFront) {
   const Eigen::Vector2d top = top_of(2);
   const Bgr cube = at(drawing.draw(shown), top);
   shown.frame.clone = pointing_away(0, 0, 0.075);
@@ -99,15 +99,14 @@ TEST_F(OverFilm, TheCloneHidesACubeOnlyFromInFront) {
   EXPECT_TRUE(bluer(in_front, cube));
   shown.frame.clone = pointing_away(0, 0.085);
   EXPECT_EQ(at(drawing.draw(shown), top), cube);
-  // Stuck through the cube sideways, it is below the top.
+  // Through the side of the cube, it is below the top.
   shown.frame.clone = upright_pose(shown.frame.cubes[1].position_m, 0);
   shown.frame.clone->position_m.z() -= 0.01;
   EXPECT_EQ(at(drawing.draw(shown), top), cube);
 }
 
-// It is seen through, so that the filmed effector behind it shows where the two part: 28 % of the
-// picture, which its shadow dims by up to 30 %.
-TEST_F(OverFilm, TheCloneLetsSomeOfTheFilmThrough) {
+// 28 % of the picture remains visible behind it, dimmed by its shadow by up to 30 %.
+TEST_F(OverFilm, CloneIsTranslucent) {
   shown.frame.cubes.clear();
   shown.frame.clone = pointing_away(0, 0);
   const Bgr over_light = at(drawing.draw(shown), 320, 235);
@@ -121,10 +120,10 @@ TEST_F(OverFilm, TheCloneLetsSomeOfTheFilmThrough) {
   }
 }
 
-TEST_F(OverFilm, TheTableHidesWhatIsBelowIt) {
+TEST_F(OverFilm, TableHidesObjectsBelowIt) {
   shown.frame.cubes = {upright_pose({0, 0, -0.03}, 0.2)};
   EXPECT_EQ(drawing.draw(shown).pixels, shown.camera->pixels);
-  // Sunk by half, a cube is seen down to the table: nothing of it below that line.
+  // A half sunk cube is visible only above the table.
   shown.frame.cubes = {upright_pose({0, 0, 0}, 0)};
   const double half_m = setup.stage.cube_size_m / 2;
   const Pose camera = camera_looking_down(55 * M_PI / 180);
@@ -136,7 +135,7 @@ TEST_F(OverFilm, TheTableHidesWhatIsBelowIt) {
   EXPECT_EQ(below.red, below.blue);
 }
 
-TEST_F(OverFilm, ShadowsDarkenTheTableBesideACubeAndFadeAsItRises) {
+TEST_F(OverFilm, ShadowFadesAsCubeRises) {
   const Eigen::Vector2d beside = project(
       *setup.camera, camera_looking_down(55 * M_PI / 180) * Eigen::Vector3d(0.085, 0.02, 0));
   const auto gray_beside = [&](double rise_m) {
@@ -153,7 +152,7 @@ TEST_F(OverFilm, ShadowsDarkenTheTableBesideACubeAndFadeAsItRises) {
   EXPECT_LE(gray_beside(0.06), 200);
 }
 
-TEST_F(OverFilm, SlotsAreFoundUnderTouchesAndALittleBeside) {
+TEST_F(OverFilm, SlotIsFoundUnderAndNearATouch) {
   drawing.draw(shown);
   for (int slot : {1, 2, 3}) {
     const auto top = top_of(slot);
@@ -164,13 +163,13 @@ TEST_F(OverFilm, SlotsAreFoundUnderTouchesAndALittleBeside) {
   EXPECT_EQ(drawing.slot_at(-1e9, 5), std::nullopt);
 }
 
-TEST_F(OverFilm, ATouchOnTheCloneMeansTheCubeBehindIt) {
+TEST_F(OverFilm, TouchOnCloneFindsCubeBehindIt) {
   shown.frame.clone = pointing_away(0, 0, 0.075);
   drawing.draw(shown);
   EXPECT_THAT(drawing.slot_at(top_of(2).x(), top_of(2).y()), Optional(2));
 }
 
-TEST_F(OverFilm, LabelsGoAboveCubesThatAreInThePicture) {
+TEST_F(OverFilm, LabelsAreAboveVisibleCubes) {
   shown.frame.cubes[2].position_m.x() = 0.4;
   drawing.draw(shown);
   for (int slot : {1, 2}) {
@@ -185,14 +184,14 @@ TEST_F(OverFilm, LabelsGoAboveCubesThatAreInThePicture) {
   EXPECT_EQ(drawing.label_place(0), std::nullopt);
 }
 
-TEST_F(OverFilm, TheCamerasLastPlaceHoldsUntilItIsKnownAgain) {
+TEST_F(OverFilm, LastCameraPoseIsKeptUntilTheNext) {
   shown.camera_from_board = camera_looking_down(1.2, 0.35);
   const Image there = drawing.draw(shown);
   shown.camera_from_board.reset();
   EXPECT_EQ(drawing.draw(shown).pixels, there.pixels);
 }
 
-TEST_F(OverFilm, RefusesFilmsThatDoNotFitTheCalibration) {
+TEST_F(OverFilm, PictureOfOtherSizeThanCalibrationIsRefused) {
   shown.camera = std::make_shared<Image>(1280, 720, 3);
   try {
     drawing.draw(shown);
@@ -204,7 +203,7 @@ TEST_F(OverFilm, RefusesFilmsThatDoNotFitTheCalibration) {
   EXPECT_THROW(drawing.draw(shown), Error);
 }
 
-TEST(WithoutACamera, ThereIsATableAndTheRealEffectorOnlyWhileItIsTracked) {
+TEST(WithoutACamera, TableAndTrackedEffectorAreDrawn) {
   const ViewSetup setup = setup_with(std::nullopt);
   SceneDrawing drawing(setup);
   ViewFrame shown;
@@ -216,7 +215,7 @@ TEST(WithoutACamera, ThereIsATableAndTheRealEffectorOnlyWhileItIsTracked) {
   shown.frame.effector = pointing_away(0, 0);
   const Bgr effector = at(drawing.draw(shown), 320, 230);
   EXPECT_NE(effector, at(table, 320, 230));
-  EXPECT_LT(std::abs(effector.red - effector.blue), 25);  // no color of its own
+  EXPECT_LT(std::abs(effector.red - effector.blue), 25);  // gray
   shown.frame.clone = shown.frame.effector;
   EXPECT_TRUE(bluer(at(drawing.draw(shown), 320, 230), effector));
   shown = {};
@@ -226,7 +225,7 @@ TEST(WithoutACamera, ThereIsATableAndTheRealEffectorOnlyWhileItIsTracked) {
   EXPECT_NE(drawing.draw(shown).pixels, table.pixels);
 }
 
-// Now and then a pose is no number, or far away.
+// A random pose, sometimes not a number or far away.
 Pose any_pose(RandomStream& draws, double reach_m) {
   const auto draw = [&] { return 2 * draws.uniform() - 1; };
   Pose pose{reach_m * Eigen::Vector3d(draw(), draw(), draw()),
@@ -245,8 +244,9 @@ ViewFrame any_picture(RandomStream draws) {
   return shown;
 }
 
-// The camera may be inside a cube, behind it, or nowhere; and no picture shows in a later one.
-RC_GTEST_PROP(AnyScene, IsDrawnWithoutHarmAndTheSameWhateverWasDrawnBefore, (std::uint64_t seed)) {
+// The camera may be inside or behind a cube or have no valid pose, and no frame affects a later
+// one.
+RC_GTEST_PROP(AnyScene, IsDrawnIndependentlyOfTheLastFrame, (std::uint64_t seed)) {
   const ViewSetup setup = setup_with(strong_lens());
   SceneDrawing used(setup), fresh(setup);
   used.draw(any_picture(RandomStream(seed, "before")));

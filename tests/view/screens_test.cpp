@@ -1,5 +1,5 @@
-// The participant's screens without a window: what is on each page, whether it fits, and what taps
-// on it mean.
+// The participant's screens without a window: content and fit of each page, and the touches of
+// taps.
 #include "view/screens/Screens.h"
 
 #include <gmock/gmock.h>
@@ -89,7 +89,7 @@ void on_every_page(const Check& check) {
       }
 }
 
-TEST(Screens, ControlsAreLargeApartAndInsideTheWindow) {
+TEST(Screens, ControlsAreLargeSeparateAndInsideTheWindow) {
   on_every_page([](const Fixture& fixture, const Page& page) {
     const Rect window{0, 0, fixture.measures.width, fixture.measures.height};
     for (const Control& control : page.controls) {
@@ -104,7 +104,7 @@ TEST(Screens, ControlsAreLargeApartAndInsideTheWindow) {
   });
 }
 
-TEST(Screens, TargetsAreTwelveMillimetersOnASevenInchScreen) {
+TEST(Screens, TargetsAreTwelveMillimetersOnSevenInchScreen) {
   for (const auto& [width, height] :
        {std::pair{1024.f, 600.f}, {1280.f, 800.f}, {1920.f, 1080.f}}) {
     const float mm_per_px = 7 * 25.4f / std::hypot(width, height);
@@ -112,7 +112,7 @@ TEST(Screens, TargetsAreTwelveMillimetersOnASevenInchScreen) {
   }
 }
 
-TEST(Screens, TextStaysInTheWindowAndOffTheControls) {
+TEST(Screens, TextIsInsideTheWindowAndBesideControls) {
   on_every_page([](const Fixture& fixture, const Page& page) {
     const Rect window{0, 0, fixture.measures.width, fixture.measures.height};
     for (const TextLine& line : page.lines) {
@@ -126,10 +126,10 @@ TEST(Screens, TextStaysInTheWindowAndOffTheControls) {
   });
 }
 
-TEST(Screens, ButtonsHoldTheirWordsAtAReadableSize) {
+TEST(Screens, ButtonTextsFitAtReadableSize) {
   on_every_page([](const Fixture& fixture, const Page& page) {
     const Measures asked = fixture.measures, usual(asked.width, asked.height);
-    if (asked.body < usual.body) return;  // smaller was asked for
+    if (asked.body < usual.body) return;  // smaller text was requested
     for (const Control& control : page.controls) {
       const auto [words, note, words_area, note_area] =
           words_on(control, fixture.typeface, fixture.measures);
@@ -140,8 +140,8 @@ TEST(Screens, ButtonsHoldTheirWordsAtAReadableSize) {
   });
 }
 
-// Which cube has which label is read before it is validated, from an arm's length.
-TEST(Screens, GivenLabelsAreReadInOneLineAsLargeAsTheRest) {
+// Given labels must be legible at arm's length, because they are validated.
+TEST(Screens, GivenLabelsAreInOneLineOfUsualSize) {
   int n_notes = 0;
   on_every_page([&](const Fixture& fixture, const Page& page) {
     for (const Control& control : page.controls) {
@@ -160,8 +160,8 @@ TEST(Screens, GivenLabelsAreReadInOneLineAsLargeAsTheRest) {
   EXPECT_GT(n_notes, 0);
 }
 
-// Where a photodiode is stuck to the screen, no finger goes and nothing is read.
-TEST(Screens, ThePhotodiodesPatchCoversNoControlAndNoText) {
+// A photodiode on the screen must not cover anything.
+TEST(Screens, PhotodiodePatchCoversNoControlAndNoText) {
   on_every_page([](const Fixture& fixture, const Page& page) {
     const bool left_handed =
         !page.controls.empty() && page.scene && page.controls.front().area.x < page.scene->x;
@@ -181,13 +181,13 @@ TEST(Screens, ThePhotodiodesPatchCoversNoControlAndNoText) {
   });
 }
 
-TEST(Screens, NothingIsThereBeforeTheSessionShowsSomething) {
+TEST(Screens, PageIsEmptyBeforeAStateIsSet) {
   Fixture fixture;
   EXPECT_THAT(fixture.page().lines, testing::IsEmpty());
   EXPECT_THAT(names(fixture.page()), ElementsAre());
 }
 
-TEST(Screens, TheSceneTakesMostOfTheWindow) {
+TEST(Screens, SceneFillsMostOfTheWindow) {
   Fixture fixture;
   fixture.screens.show(trial_state("sorting"), true);
   const Rect scene = *fixture.page().scene;
@@ -195,7 +195,7 @@ TEST(Screens, TheSceneTakesMostOfTheWindow) {
   EXPECT_GT(scene.height, 0.8f * 600);
 }
 
-TEST(Screens, EachOffersItsControls) {
+TEST(Screens, EachScreenOffersItsControls) {
   Fixture fixture;
   const auto offered = [&](const std::string& name) {
     for (const NamedScreen& screen : every_screen(fixture.screens.texts()))
@@ -220,7 +220,7 @@ TEST(Screens, EachOffersItsControls) {
                            "label_heaviest", "validate", "dont_know", "put_cubes_back"));
 }
 
-TEST(Screens, CubesOfAnyOtherNumberThanThreeAreRanked) {
+TEST(Screens, CubesOtherThanThreeAreRanked) {
   for (const int n : {2, 4, 5, 6}) {
     Fixture fixture;
     fixture.screens.show(sorting_state(n), true);
@@ -238,7 +238,7 @@ TEST(Screens, CubesOfAnyOtherNumberThanThreeAreRanked) {
   }
 }
 
-TEST(Screens, NothingCanBeAnsweredTooEarly) {
+TEST(Screens, AnswersAreDisabledBeforeTheyAreAllowed) {
   Fixture fixture;
   for (const Task task : words_of<Task>()) {
     ScreenState state = trial_state(task);
@@ -251,7 +251,7 @@ TEST(Screens, NothingCanBeAnsweredTooEarly) {
   }
 }
 
-TEST(Screens, OnlyTheIntroductionSaysTryAgain) {
+TEST(Screens, OnlyIntroductionShowsTryAgain) {
   Fixture fixture;
   for (const Task task : words_of<Task>()) {
     ScreenState state = trial_state(task);
@@ -261,7 +261,7 @@ TEST(Screens, OnlyTheIntroductionSaysTryAgain) {
   }
 }
 
-TEST(Screens, AChoiceIsOneTap) {
+TEST(Screens, ChoiceTakesOneTap) {
   Fixture fixture;
   fixture.screens.show(trial_state("comparison"), true);
   EXPECT_EQ(action(fixture.tap("cube_2")).kind, "select");
@@ -271,12 +271,12 @@ TEST(Screens, AChoiceIsOneTap) {
   EXPECT_EQ(fixture.tap("put_cubes_back")->kind, TouchKind::put_cubes_back);
 }
 
-TEST(Screens, ALabelGoesToTheSelectedCubeAndASecondTapTakesItBack) {
+TEST(Screens, LabelIsGivenToSelectedCubeAndRemovedBySecondTap) {
   Fixture fixture;
   ScreenState state = trial_state("sorting");
   fixture.screens.show(state, true);
   EXPECT_FALSE(fixture.control("label_heaviest").enabled) << "no cube is selected";
-  EXPECT_FALSE(fixture.tap("cube_2")) << "selecting is between the screen and the person";
+  EXPECT_FALSE(fixture.tap("cube_2")) << "a selection is not reported";
   EXPECT_TRUE(fixture.control("cube_2").chosen);
   const Action given = action(fixture.tap("label_heaviest"));
   EXPECT_EQ(given.kind, "label");
@@ -293,7 +293,7 @@ TEST(Screens, ALabelGoesToTheSelectedCubeAndASecondTapTakesItBack) {
   EXPECT_EQ(back.kind, "unlabel");
   EXPECT_EQ(back.slot, 2);
   EXPECT_FALSE(back.label);
-  EXPECT_EQ(action(fixture.tap("label_lightest")).kind, "label") << "corrected at will";
+  EXPECT_EQ(action(fixture.tap("label_lightest")).kind, "label") << "labels can be changed";
 }
 
 TEST(Screens, LabelsAreShownOverTheirCubes) {
@@ -309,7 +309,7 @@ TEST(Screens, LabelsAreShownOverTheirCubes) {
                                  std::tuple(3, "Lightest", false)));
 }
 
-TEST(Screens, ANewTrialBeginsWithNoCubeSelectedThoughItsCubesAreThereAtOnce) {
+TEST(Screens, NewTrialBeginsWithoutSelectedCube) {
   const auto chosen_after = [](const ScreenState& next) {
     Fixture fixture;
     fixture.screens.show(trial_state("sorting"), true);
@@ -330,7 +330,7 @@ TEST(Screens, ANewTrialBeginsWithNoCubeSelectedThoughItsCubesAreThereAtOnce) {
   EXPECT_FALSE(chosen_after(trial_state("comparison")));
 }
 
-TEST(Screens, CubesThatAppearAreToldFromAPageThatTurns) {
+TEST(Screens, AppearingCubesDoNotTurnThePage) {
   Fixture fixture;
   ScreenState state = trial_state("comparison");
   EXPECT_EQ(fixture.screens.show(state, false), Turn::page);
@@ -339,7 +339,7 @@ TEST(Screens, CubesThatAppearAreToldFromAPageThatTurns) {
   state.trial_number = 2;
   state.faded = 0.2;
   EXPECT_EQ(fixture.screens.show(state, true), Turn::page);
-  EXPECT_THAT(names(fixture.page(), true), ElementsAre()) << "those cubes were the last trial's";
+  EXPECT_THAT(names(fixture.page(), true), ElementsAre()) << "those cubes belong to the last trial";
   EXPECT_EQ(fixture.page().notice, "Next cubes");
   EXPECT_FLOAT_EQ(fixture.page().scene_opacity, 0.8f);
   state.faded.reset();
@@ -347,7 +347,7 @@ TEST(Screens, CubesThatAppearAreToldFromAPageThatTurns) {
   EXPECT_FALSE(names(fixture.page(), true).empty());
 }
 
-TEST(Screens, TheNamedChoiceStaysMarkedWhileItsCubesFade) {
+TEST(Screens, ChoiceRemainsMarkedWhileItsCubesFade) {
   for (const char* named : {"cube_2", "no_difference"}) {
     Fixture fixture;
     ScreenState state = trial_state("comparison");
@@ -359,7 +359,7 @@ TEST(Screens, TheNamedChoiceStaysMarkedWhileItsCubesFade) {
         if (control.chosen) all.push_back(control.name);
       return all;
     };
-    EXPECT_THAT(chosen(), ElementsAre()) << "it is the session that takes it";
+    EXPECT_THAT(chosen(), ElementsAre()) << "the session has not accepted it yet";
     state.trial_number = 2;
     state.faded = 0.1;
     fixture.screens.show(state, true);
@@ -370,7 +370,7 @@ TEST(Screens, TheNamedChoiceStaysMarkedWhileItsCubesFade) {
   }
 }
 
-TEST(Screens, HintsComeOnlyWhereTheProtocolAsksForWhatTheySay) {
+TEST(Screens, HintsDependOnTheProtocol) {
   Fixture fixture;
   ScreenState state = trial_state("comparison");
   state.can_answer = false;
@@ -381,7 +381,7 @@ TEST(Screens, HintsComeOnlyWhereTheProtocolAsksForWhatTheySay) {
   EXPECT_THAT(fixture.page().notice, testing::HasSubstr("Push every cube"));
 }
 
-TEST(Screens, APauseReturnsToTheVeryQuestion) {
+TEST(Screens, PauseReturnsToTheSameQuestion) {
   Fixture fixture;
   fixture.screens.show(page_state(Screen::about_you), false);
   fixture.tap("age_25_34");
@@ -396,7 +396,7 @@ TEST(Screens, APauseReturnsToTheVeryQuestion) {
   EXPECT_TRUE(fixture.control("age_25_34").chosen);
 }
 
-TEST(Screens, AFormGoesOnWithTheFirstQuestionThatHasNoAnswer) {
+TEST(Screens, FormContinuesWithFirstUnansweredQuestion) {
   Fixture fixture;
   ScreenState state = page_state(Screen::about_you);
   state.entries = {{"age", "25_34"}, {"gender", "man"}};
@@ -404,7 +404,7 @@ TEST(Screens, AFormGoesOnWithTheFirstQuestionThatHasNoAnswer) {
   EXPECT_TRUE(fixture.control("handedness_left").enabled);
 }
 
-TEST(Screens, NobodyAgreesWhereTheyReadOnOrBeforeTheyCanHaveRead) {
+TEST(Screens, AgreeIsApartFromMoreAndNeedsReadingTime) {
   for (const Measures& window : windows) {
     ScreenTexts texts = shipped_texts("en");
     for (int i = 0; i < 400; ++i) texts.pages["consent"]["text"] += " and so on";
@@ -423,22 +423,22 @@ TEST(Screens, NobodyAgreesWhereTheyReadOnOrBeforeTheyCanHaveRead) {
   }
 }
 
-TEST(Screens, WhoComesBackFromDecliningNeedNotReadTheConsentAgain) {
+TEST(Screens, ReturningFromDecliningNeedsNoReadingTime) {
   Fixture fixture;
-  const auto live_at_once = [&] {
+  const auto enabled_immediately = [&] {
     return names(fixture.screens.page(fixture.typeface, fixture.measures, 0), true);
   };
   fixture.screens.show(page_state(Screen::consent), false);
-  EXPECT_THAT(live_at_once(), ElementsAre("decline"));
+  EXPECT_THAT(enabled_immediately(), ElementsAre("decline"));
   fixture.screens.show(page_state(Screen::declined), false);
   fixture.screens.show(page_state(Screen::consent), false);
-  EXPECT_THAT(live_at_once(), ElementsAre("next", "decline"));
+  EXPECT_THAT(enabled_immediately(), ElementsAre("next", "decline"));
   fixture.screens.show(page_state(Screen::paused), false);
   fixture.screens.show(page_state(Screen::consent), false);
-  EXPECT_THAT(live_at_once(), ElementsAre("next", "decline")) << "nor after a pause";
+  EXPECT_THAT(enabled_immediately(), ElementsAre("next", "decline")) << "also after a pause";
 }
 
-TEST(Screens, ValidationNeedsTheSessionsLeave) {
+TEST(Screens, ValidationIsDisabledUntilAllowed) {
   Fixture fixture;
   ScreenState state = trial_state("sorting");
   fixture.screens.show(state, true);
@@ -448,7 +448,7 @@ TEST(Screens, ValidationNeedsTheSessionsLeave) {
   EXPECT_EQ(action(fixture.tap("validate")).kind, "validate");
 }
 
-TEST(Screens, FormsAskOneQuestionAtATimeAndEachCanBeSkipped) {
+TEST(Screens, FormShowsOneSkippableQuestionAtATime) {
   Fixture fixture;
   fixture.screens.show(page_state(Screen::about_you), false);
   EXPECT_THAT(names(fixture.page()), IsSupersetOf({"age_18_24", "next"}));
@@ -465,7 +465,7 @@ TEST(Screens, FormsAskOneQuestionAtATimeAndEachCanBeSkipped) {
   EXPECT_TRUE(fixture.control("age_25_34").chosen);
 }
 
-TEST(Screens, ALongTextComesInPartsAndIsAgreedToAtItsEnd) {
+TEST(Screens, LongTextHasPartsAndAgreeOnTheLast) {
   ScreenTexts texts = shipped_texts("en");
   std::string& text = texts.pages["consent"]["text"];
   for (int i = 0; i < 200; ++i) text += (i % 20 ? " word" : "\n\nword") + std::to_string(i);
@@ -493,7 +493,7 @@ TEST(Screens, ALongTextComesInPartsAndIsAgreedToAtItsEnd) {
   EXPECT_THAT(names(fixture.page()), ElementsAre("back", "next", "decline"));
 }
 
-TEST(Screens, TheLeftHandHasTheControlsOnItsSideAndTheCubesInTheirOrder) {
+TEST(Screens, LeftHandMirrorsControlsButNotCubes) {
   const auto areas = [](bool left_handed) {
     Fixture fixture("en", {1024, 600}, left_handed);
     fixture.screens.show(trial_state("sorting"), true);
@@ -522,9 +522,9 @@ TEST(Screens, AllCubesLookTheSame) {
   EXPECT_EQ(first.look, last.look);
 }
 
-TEST(Typeface, RefusesACharacterThatItLacks) {
+TEST(Typeface, CharacterWithoutFontIsRefused) {
   ScreenTexts texts = shipped_texts("en");
-  texts.pages["welcome"]["title"] = "\U00010FFF";  // given to no script
+  texts.pages["welcome"]["title"] = "\U00010FFF";  // unassigned
   try {
     Typeface{texts};
     FAIL();
@@ -534,23 +534,23 @@ TEST(Typeface, RefusesACharacterThatItLacks) {
   }
 }
 
-TEST(Typeface, HasTheLettersOfOtherScriptsWhoseFontsAreInstalled) {
+TEST(Typeface, InstalledFontsHaveOtherScripts) {
   ScreenTexts texts = shipped_texts("en");
   texts.pages["welcome"]["title"] =
       "Добро пожаловать Καλώς ήρθατε Vítejte Ťŕíźňę שלום مرحبا 歓迎 \u200f\u00a0";
   EXPECT_NO_THROW(Typeface{texts});
-  EXPECT_THAT(characters_without_font(texts), testing::IsEmpty());
+  EXPECT_THAT(missing_characters(texts), testing::IsEmpty());
 }
 
-TEST(Typeface, ArabicIsShapedAndItsLettersJoin) {
+TEST(Typeface, ArabicLettersJoin) {
   const Typeface typeface(texts_in("ar"));
   constexpr float size_px = 40;
-  // Three letters in a row are other, narrower forms than three that stand alone.
+  // Joined letters have narrower forms than isolated ones.
   EXPECT_LT(typeface.width_px("ععع", size_px), 0.95f * 3 * typeface.width_px("ع", size_px));
   EXPECT_EQ(typeface.written("ععع", size_px).direction, Direction::right_to_left);
 }
 
-TEST(Typeface, ALineGoesWithItsLanguageUnlessAllOfItsLettersGoTheOtherWay) {
+TEST(Typeface, LineHasItsLanguagesDirectionUnlessAllLettersHaveTheOther) {
   const Typeface arabic(texts_in("ar")), english(texts_in("en"));
   EXPECT_TRUE(arabic.reads_right_to_left());
   EXPECT_FALSE(english.reads_right_to_left());
@@ -565,7 +565,7 @@ TEST(Typeface, ALineGoesWithItsLanguageUnlessAllOfItsLettersGoTheOtherWay) {
   EXPECT_TRUE(leftward(english, "مكعب"));
 }
 
-TEST(Typeface, WhatHasNoSpacesIsBrokenWhereItsScriptMayBe) {
+TEST(Typeface, TextWithoutSpacesIsBrokenByItsScriptsRules) {
   const Typeface typeface(texts_in("ja"));
   const std::string text =
       "同じように見える二つの立方体が現れます。一方は他方より重くなっています。";
@@ -580,7 +580,7 @@ TEST(Typeface, WhatHasNoSpacesIsBrokenWhereItsScriptMayBe) {
   EXPECT_EQ(all, text);
 }
 
-TEST(Typeface, MeasuresWhatItDraws) {
+TEST(Typeface, MeasuredWidthIsDrawnWidth) {
   for (const char* language : {"en", "ar", "ja"}) {
     const ScreenTexts texts = texts_in(language);
     const Typeface typeface(texts);
@@ -598,18 +598,18 @@ TEST(Typeface, MeasuresWhatItDraws) {
   }
 }
 
-TEST(TextFit, OfTheTextsNothingIsTooLargeForTheSmallestScreen) {
+TEST(TextFit, ShippedTextsFitTheSmallestScreen) {
   for (const char* language : {"en", "fr", "ar", "ja"})
     EXPECT_THAT(texts_that_do_not_fit(texts_in(language), smallest_screen()), testing::IsEmpty());
 }
 
-TEST(TextFit, LargeLettersAreSmallerWhereThereIsNoRoomForThem) {
+TEST(TextFit, LargeTextShrinksWhereSpaceIsShort) {
   for (const char* language : {"en", "fr", "ar", "ja"})
     EXPECT_THAT(texts_that_do_not_fit(texts_in(language), smallest_screen(2)),
                 testing::Each(testing::HasSubstr("only in small letters")));
 }
 
-TEST(TextFit, NamesWhatIsTooLongForItsButtonOrItsPlace) {
+TEST(TextFit, TooLongTextsAreNamed) {
   ScreenTexts texts = shipped_texts("en");
   texts.pages["trial_sorting"]["dont_know"] = "Rindfleischetikettierungsüberwachungsaufgabe";
   texts.pages["welcome"]["title"] = std::string(60, 'W');
@@ -624,7 +624,7 @@ TEST(TextFit, NamesWhatIsTooLongForItsButtonOrItsPlace) {
       << "twice as large is too large somewhere";
 }
 
-TEST(Screens, FormsOfALanguageFromTheRightBeginThere) {
+TEST(Screens, RightToLeftFormBeginsAtTheRight) {
   Fixture fixture("ar");
   fixture.screens.show(page_state(Screen::about_you), false);
   EXPECT_GT(fixture.control("age_under_18").area.x, fixture.control("age_18_24").area.right());

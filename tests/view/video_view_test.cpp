@@ -1,4 +1,4 @@
-// The view into a video file, read back with OpenCV.
+// The view that writes a video file, read back with OpenCV.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -40,7 +40,7 @@ double mean_difference(const cv::Mat& read, const Image& drawn) {
   return cv::norm(read, expected, cv::NORM_L1) / static_cast<double>(drawn.pixels.size());
 }
 
-TEST(VideoView, HoldsEveryFrameAsItIsDrawn) {
+TEST(VideoView, VideoHasEveryDrawnFrame) {
   const TemporaryFolder folder;
   for (const char* name : {"session.mp4", "session.avi"}) {
     ViewSetup setup = setup_with(Intrinsics{});
@@ -73,7 +73,7 @@ void expect_refused(const std::string& file, const char* why) {
   }
 }
 
-TEST(VideoView, RefusesFilesThatItWouldSpoilOrCanNotWrite) {
+TEST(VideoView, ExistingAndUnwritableFilesAreRefused) {
   const TemporaryFolder folder;
   const std::string taken = folder.file("taken.mp4");
   std::ofstream(taken) << "precious";
@@ -84,7 +84,7 @@ TEST(VideoView, RefusesFilesThatItWouldSpoilOrCanNotWrite) {
   expect_refused(folder.file("nowhere/session.mp4"), "cannot write");
 }
 
-TEST(VideoView, IsInTheTableAsAViewWithAFileAndNoScreen) {
+TEST(VideoView, TableEntryHasFileAndNoScreen) {
   EXPECT_TRUE(view_named("video").has_file);
   EXPECT_FALSE(view_named("video").has_screen);
 }

@@ -1,5 +1,5 @@
-// Taps and keys for a WindowView in this process, as events that SDL would send. Also drives whole
-// sessions: find a control by its stable name and tap it.
+// Taps and keys for a WindowView in this process, as SDL events. Controls are found by their stable
+// names, also to drive whole sessions.
 #pragma once
 
 #include <SDL.h>
@@ -85,7 +85,7 @@ inline void tap(const WindowView& view, const std::string& name) {
   tap_with_finger(center_x(area), center_y(area));
 }
 
-/// The middle of where taps in the picture are for this cube.
+/// The middle of the pixels in the picture where taps select this cube.
 inline std::pair<float, float> place_in_picture(const WindowView& view, const std::string& cube) {
   int width = 0, height = 0;
   SDL_GetWindowSize(SDL_GL_GetCurrentWindow(), &width, &height);

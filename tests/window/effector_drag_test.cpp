@@ -1,4 +1,4 @@
-// The effector that a person drags: where it is taken, how it follows, how far it goes.
+// The dragged effector: where it is taken, how it follows, and its limits.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ class Drag : public testing::Test {
   EffectorDrag drag{setup_with(effector)};
 };
 
-TEST_F(Drag, ItIsTakenWhereItIsAndFollowsWithoutAJump) {
+TEST_F(Drag, EffectorFollowsWithoutAJump) {
   drag.take(Taps::mouse, {0.05, -0.1, 0.025});
   EXPECT_FALSE(drag.was_taken()) << "beside it";
   drag.take(Taps::mouse, {0.01, -0.14, 0.025});
@@ -36,7 +36,7 @@ TEST_F(Drag, ItIsTakenWhereItIsAndFollowsWithoutAJump) {
   EXPECT_TRUE(effector->pose.position_m.isApprox(Vector3d(0.03, 0, 0.025), 1e-12));
 }
 
-TEST_F(Drag, OnePointerHasItUntilItLetsGo) {
+TEST_F(Drag, OnePointerHoldsItUntilRelease) {
   constexpr Taps::Pointer finger = 3;
   const Vector3d middle = effector->pose.position_m;
   drag.take(finger, middle);
@@ -50,13 +50,13 @@ TEST_F(Drag, OnePointerHasItUntilItLetsGo) {
   EXPECT_EQ(effector->pose.position_m, middle);
 }
 
-TEST_F(Drag, ItStaysInItsAreaAndAtItsHeight) {
+TEST_F(Drag, EffectorRemainsInItsAreaAndAtItsHeight) {
   drag.take(Taps::mouse, effector->pose.position_m);
   drag.move(Taps::mouse, {7, -7, 0.025});
   EXPECT_EQ(effector->pose.position_m, Vector3d(0.2, -0.15, 0.025));
 }
 
-TEST_F(Drag, TheWheelTurnsItAboutTheVerticalAndItIsTakenWhereItLiesThen) {
+TEST_F(Drag, WheelTurnsItAboutTheVertical) {
   drag.turn(18);
   const Vector3d tip = effector->pose.orientation * Vector3d::UnitX();
   EXPECT_NEAR(tip.x(), -1, 1e-12);

@@ -18,7 +18,7 @@ namespace {
 
 using testing::SizeIs;
 
-/// An X server of its own on a free display, for as long as this lives.
+/// A separate X server on a free display, for the lifetime of this object.
 class Display {
  public:
   Display() {
@@ -59,9 +59,9 @@ class Display {
     const int nowhere = open("/dev/null", O_WRONLY);
     dup2(nowhere, STDOUT_FILENO);
     dup2(nowhere, STDERR_FILENO);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // it must not outlive a test that is cut short
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends with a killed test, too
     const std::string descriptor = std::to_string(number_to);
-    // A server that starts afresh when its last client leaves refuses who comes meanwhile.
+    // Without -noreset the server restarts after its last client and refuses new ones meanwhile.
     execlp("Xvfb", "Xvfb", "-noreset", "-displayfd", descriptor.c_str(), "-screen", "0",
            "1280x800x24", "-nolisten", "tcp", nullptr);
     _exit(127);
@@ -87,7 +87,7 @@ std::vector<Touch> settled(WindowView& view) {
   return view.wait(settle_s + 0.05);
 }
 
-TEST(WindowOnADisplay, FillsItAndTakesClicksAndKeys) {
+TEST(WindowOnADisplay, FillsTheDisplayAndTakesClicksAndKeys) {
   const Display display;
   ViewSetup setup = setup_for("fr");
   setup.takes_keys = true;
@@ -115,7 +115,7 @@ TEST(WindowOnADisplay, FillsItAndTakesClicksAndKeys) {
   EXPECT_EQ(touched[0].action.kind, "dont_know");
 }
 
-TEST(WindowOnADisplay, TwoQuickClicksAreOneTouch) {
+TEST(WindowOnADisplay, DoubleClickIsOneTouch) {
   const Display display;
   const ViewSetup setup = setup_for("en", 2);
   WindowView view(setup);
@@ -128,7 +128,7 @@ TEST(WindowOnADisplay, TwoQuickClicksAreOneTouch) {
   EXPECT_THAT(view.wait(0.3), SizeIs(0));
 }
 
-TEST(WindowOnADisplay, WhenTheDisplayDiesThePersonHearsWhatToDo) {
+TEST(WindowOnADisplay, LostDisplayIsExplained) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto lose_display = [] {
     Display display;

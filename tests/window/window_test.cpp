@@ -41,7 +41,7 @@ class Window : public testing::Test {
     view = std::make_unique<WindowView>(setup);
   }
 
-  /// Shows a screen, until a tap on it counts.
+  /// Shows a screen and waits until taps on it count.
   void show(const ScreenState& state, bool cubes = true) {
     view->present(picture_of(setup, cubes), state);
     EXPECT_THAT(view->wait(settled_s), IsEmpty());
@@ -58,7 +58,7 @@ class Window : public testing::Test {
   std::unique_ptr<WindowView> view;
 };
 
-// The shade of what is on the display in a lower corner.
+// The displayed shade in a lower corner.
 int shade_in_corner(bool left) {
   using ReadPixels = void (*)(int, int, int, int, unsigned, unsigned, void*);
   using ReadBuffer = void (*)(unsigned);
@@ -73,7 +73,7 @@ int shade_in_corner(bool left) {
   return pixel[1];
 }
 
-TEST_F(Window, ThePatchIsAnotherShadeWithEachFrameAndStaysBetween) {
+TEST_F(Window, PatchChangesOncePerFrame) {
   for (const bool left_handed : {false, true}) {
     ViewSetup with_patch = setup_for("en");
     with_patch.patch = true;
@@ -93,12 +93,12 @@ TEST_F(Window, ThePatchIsAnotherShadeWithEachFrameAndStaysBetween) {
   }
 }
 
-TEST_F(Window, EveryControlOfEveryScreenGivesItsTouch) {
+TEST_F(Window, EveryControlOfEveryScreenReportsItsTouch) {
   for (const NamedScreen& screen : every_screen(shipped_texts("en"))) {
     SCOPED_TRACE(screen.name);
     show(screen.state, screen.cubes);
     for (const std::string& name : names_of(view->controls())) {
-      const Control control = control_named(*view, name);  // as the taps before left it
+      const Control control = control_named(*view, name);  // after the previous taps
       const auto* expected = control.enabled ? std::get_if<Touch>(&control.effect) : nullptr;
       const auto touched = after_tap(name);
       ASSERT_THAT(touched, SizeIs(expected ? 1 : 0)) << name;
@@ -111,7 +111,7 @@ TEST_F(Window, EveryControlOfEveryScreenGivesItsTouch) {
   }
 }
 
-TEST_F(Window, FrenchAndTheMouseWorkAlike) {
+TEST_F(Window, MouseAndFrenchTextsWork) {
   open(setup_for("fr", 2));
   show(trial_state("comparison"));
   EXPECT_EQ(control_named(*view, "no_difference").text, "Pas de différence");
@@ -123,7 +123,7 @@ TEST_F(Window, FrenchAndTheMouseWorkAlike) {
   EXPECT_EQ(touched[0].action.slot, 2);
 }
 
-TEST_F(Window, ADoubleTapCountsOnce) {
+TEST_F(Window, DoubleTapCountsOnce) {
   show(trial_state("comparison"));
   tap(*view, "no_difference");
   tap(*view, "no_difference");
@@ -134,10 +134,10 @@ TEST_F(Window, ADoubleTapCountsOnce) {
   view->wait(settled_s);
   push_mouse(SDL_MOUSEBUTTONDOWN, center_x(area), center_y(area), SDL_TOUCH_MOUSEID);
   push_mouse(SDL_MOUSEBUTTONUP, center_x(area), center_y(area), SDL_TOUCH_MOUSEID);
-  EXPECT_THAT(touches(), IsEmpty()) << "the mouse that imitates a finger does not count";
+  EXPECT_THAT(touches(), IsEmpty()) << "mouse events made from a finger do not count";
 }
 
-TEST_F(Window, ATapIsDownAndUpOnTheSameControl) {
+TEST_F(Window, TapIsDownAndUpOnTheSameControl) {
   show(trial_state("comparison"));
   const Rect one = control_named(*view, "cube_1").area, two = control_named(*view, "cube_2").area;
   push_finger(SDL_FINGERDOWN, center_x(one), center_y(one));
@@ -147,14 +147,14 @@ TEST_F(Window, ATapIsDownAndUpOnTheSameControl) {
   EXPECT_THAT(touches(), IsEmpty());
 }
 
-TEST_F(Window, TouchesComeInOrderWithTheTimesOfTheirEvents) {
+TEST_F(Window, TouchesAreInOrderWithEventTimes) {
   show(trial_state("comparison"));
   constexpr double rounding_s = 0.002;  // SDL counts whole milliseconds
   const double before_s = monotonic_s();
   tap(*view, "cube_2");
   tap(*view, "cube_1");
   const double pushed_s = monotonic_s();
-  const auto touched = view->wait(100);  // returns early, or the test's time is up
+  const auto touched = view->wait(100);  // returns early, or the test times out
   ASSERT_THAT(touched, SizeIs(2));
   EXPECT_EQ(touched[0].action.slot, 2);
   EXPECT_EQ(touched[1].action.slot, 1);
@@ -164,7 +164,7 @@ TEST_F(Window, TouchesComeInOrderWithTheTimesOfTheirEvents) {
   }
 }
 
-TEST_F(Window, ATapBegunOnThePageBeforeIsNone) {
+TEST_F(Window, TapBegunOnPreviousPageIsIgnored) {
   show(page_state(Screen::welcome));
   const Rect area = control_named(*view, "next").area;
   push_finger(SDL_FINGERDOWN, center_x(area), center_y(area));
@@ -174,7 +174,7 @@ TEST_F(Window, ATapBegunOnThePageBeforeIsNone) {
   EXPECT_THAT(touches(), IsEmpty());
 }
 
-TEST_F(Window, TheSecondHalfOfADoubleTapSkipsNoPage) {
+TEST_F(Window, DoubleTapDoesNotSkipAPage) {
   show(page_state(Screen::welcome));
   ASSERT_THAT(after_tap("next"), SizeIs(1));
   view->present(picture_of(setup), page_state(Screen::instructions));
@@ -183,7 +183,7 @@ TEST_F(Window, TheSecondHalfOfADoubleTapSkipsNoPage) {
   EXPECT_THAT(after_tap("next"), SizeIs(1));
 }
 
-TEST_F(Window, ATapThatCameBeforeTheNextPictureIsForThePageThatWasSeen) {
+TEST_F(Window, TapBeforeNextFrameBelongsToVisiblePage) {
   show(trial_state("comparison"));
   tap(*view, "no_difference");
   view->present(picture_of(setup), page_state(Screen::rest));
@@ -192,7 +192,7 @@ TEST_F(Window, ATapThatCameBeforeTheNextPictureIsForThePageThatWasSeen) {
   EXPECT_EQ(touched[0].action.kind, "no_difference");
 }
 
-TEST_F(Window, ACubeInThePictureIsAsGoodAsItsButton) {
+TEST_F(Window, CubeInPictureActsAsItsButton) {
   show(trial_state("sorting"));
   for (const std::string cube : {"cube_1", "cube_2", "cube_3"}) {
     const auto [x, y] = place_in_picture(*view, cube);
@@ -208,7 +208,7 @@ TEST_F(Window, ACubeInThePictureIsAsGoodAsItsButton) {
   EXPECT_EQ(touched[0].action.slot, 2);
 }
 
-// With the effector of picture_of() to be dragged.
+// With a dragged effector at its place in picture_of().
 class WindowToDragIn : public Window {
  protected:
   WindowToDragIn() {
@@ -217,7 +217,7 @@ class WindowToDragIn : public Window {
     open(setup);
   }
 
-  /// The middle of where the effector can be taken.
+  /// The middle of the pixels where the effector can be taken.
   std::pair<float, float> middle_of_effector() {
     show(trial_state("sorting"));
     const Measures all = view->measures();
@@ -234,12 +234,12 @@ class WindowToDragIn : public Window {
   std::shared_ptr<DraggedEffector> effector = std::make_shared<DraggedEffector>();
 };
 
-TEST_F(WindowToDragIn, TheEffectorGoesWhereTheMouseGoesAndTheWheelTurnsIt) {
+TEST_F(WindowToDragIn, EffectorFollowsMouseAndWheelTurnsIt) {
   const auto [x, y] = middle_of_effector();
   const Pose before = effector->pose;
   push_mouse(SDL_MOUSEBUTTONDOWN, x, y);
   push_mouse_motion(x + 60, y - 60);
-  EXPECT_THAT(touches(), IsEmpty()) << "it answers nothing";
+  EXPECT_THAT(touches(), IsEmpty()) << "not an answer";
   const auto moved_m = effector->pose.position_m - before.position_m;
   EXPECT_GT(moved_m.x(), 0.01);
   EXPECT_GT(moved_m.y(), 0.01);
@@ -252,7 +252,7 @@ TEST_F(WindowToDragIn, TheEffectorGoesWhereTheMouseGoesAndTheWheelTurnsIt) {
   EXPECT_NEAR(effector->pose.orientation.angularDistance(before.orientation), 0.1745, 1e-3);
 }
 
-TEST_F(WindowToDragIn, AFingerDragsItAndAnotherTapsMeanwhile) {
+TEST_F(WindowToDragIn, OneFingerDragsWhileAnotherTaps) {
   const auto [x, y] = middle_of_effector();
   const double before_m = effector->pose.position_m.x();
   push_finger(SDL_FINGERDOWN, x, y, 1);
@@ -263,7 +263,7 @@ TEST_F(WindowToDragIn, AFingerDragsItAndAnotherTapsMeanwhile) {
   EXPECT_GT(effector->pose.position_m.x(), before_m);
 }
 
-TEST_F(WindowToDragIn, OutsideOfTrialsNothingIsDragged) {
+TEST_F(WindowToDragIn, NothingIsDraggedOutsideTrials) {
   const auto [x, y] = middle_of_effector();
   const Pose before = effector->pose;
   push_mouse(SDL_MOUSEBUTTONDOWN, x, y);
@@ -278,7 +278,7 @@ TEST_F(WindowToDragIn, OutsideOfTrialsNothingIsDragged) {
   EXPECT_EQ(effector->pose.orientation.coeffs(), before.orientation.coeffs());
 }
 
-TEST_F(Window, WithoutAnEffectorToDragTheMouseTapsOnly) {
+TEST_F(Window, MouseOnlyTapsWithoutDraggedEffector) {
   show(trial_state("sorting"));
   const auto [x, y] = place_in_picture(*view, "cube_2");
   push_mouse(SDL_MOUSEBUTTONDOWN, x, y);
@@ -289,7 +289,7 @@ TEST_F(Window, WithoutAnEffectorToDragTheMouseTapsOnly) {
   EXPECT_TRUE(control_named(*view, "cube_2").chosen);
 }
 
-TEST_F(Window, CubesInThePictureWaitForLeaveToo) {
+TEST_F(Window, CubesInPictureAreDisabledBeforeAnswersAreAllowed) {
   ScreenState state = trial_state("comparison");
   show(state);
   const auto [x, y] = place_in_picture(*view, "cube_2");
@@ -299,7 +299,7 @@ TEST_F(Window, CubesInThePictureWaitForLeaveToo) {
   EXPECT_THAT(touches(), IsEmpty());
 }
 
-TEST_F(Window, TakesNoKeysUnlessItIsAskedTo) {
+TEST_F(Window, KeysAreIgnoredUnlessEnabled) {
   show(trial_state("comparison"));
   for (const auto key : {SDL_SCANCODE_1, SDL_SCANCODE_N, SDL_SCANCODE_RETURN}) push_key(key);
   EXPECT_THAT(touches(), IsEmpty());
@@ -308,7 +308,7 @@ TEST_F(Window, TakesNoKeysUnlessItIsAskedTo) {
   EXPECT_THAT(touches(), IsEmpty());
 }
 
-TEST_F(Window, KeysDoWhatButtonsDo) {
+TEST_F(Window, KeysActAsButtons) {
   ViewSetup with_keys = setup_for("en");
   with_keys.takes_keys = true;
   open(with_keys);
@@ -332,7 +332,7 @@ TEST_F(Window, KeysDoWhatButtonsDo) {
   ASSERT_THAT(touches(), SizeIs(1));
 }
 
-TEST_F(Window, ClosingItIsATouch) {
+TEST_F(Window, ClosingIsATouch) {
   show(page_state(Screen::welcome));
   SDL_Event event{};
   event.type = SDL_QUIT;
@@ -342,7 +342,7 @@ TEST_F(Window, ClosingItIsATouch) {
   EXPECT_EQ(touched[0].kind, TouchKind::close);
 }
 
-TEST_F(Window, SaysWhenAPictureWasPresented) {
+TEST_F(Window, ReturnsPresentationTime) {
   const double before_s = monotonic_s();
   const auto presented_s = view->present(picture_of(setup), trial_state("sorting"));
   ASSERT_TRUE(presented_s);
@@ -350,7 +350,7 @@ TEST_F(Window, SaysWhenAPictureWasPresented) {
   EXPECT_LE(*presented_s, monotonic_s());
 }
 
-TEST_F(Window, ChangesItsLayoutWithItsSize) {
+TEST_F(Window, LayoutFollowsSize) {
   show(trial_state("sorting"));
   SDL_Window* window = SDL_GL_GetCurrentWindow();
   SDL_SetWindowFullscreen(window, 0);
@@ -363,9 +363,8 @@ TEST_F(Window, ChangesItsLayoutWithItsSize) {
   }
 }
 
-// On the smallest screen, 7" and 1024 x 600: cubes are 10 mm wide and more, and still tapped where
-// they are.
-TEST_F(Window, ShowsOfThePictureWhatTheCubesNeed) {
+// On the smallest screen, 7" and 1024 x 600, cubes are at least 10 mm wide and can be tapped.
+TEST_F(Window, ShownPartEnlargesCubes) {
   setup.windowed = true;
   for (auto& slot_m : setup.stage.slots_m) slot_m.y() = 0;  // as protocols have it
   const auto cube_mm = [&] {
@@ -393,7 +392,7 @@ TEST_F(Window, ShowsOfThePictureWhatTheCubesNeed) {
   EXPECT_NEAR((x3 - x1) * 154.2 / 1024, cube_mm() * 0.14 / 0.035, 4);
 }
 
-TEST_F(Window, TellsItsDisplayAndHowFarTheCloneIsSeenBesideTheEffector) {
+TEST_F(Window, ReportsDisplayAndCloneOffset) {
   const auto display = view->display();
   ASSERT_TRUE(display);
   EXPECT_EQ(display->number, 0);
@@ -415,7 +414,7 @@ TEST_F(Window, TellsItsDisplayAndHowFarTheCloneIsSeenBesideTheEffector) {
   EXPECT_FALSE(view->clone_offset_px());
 }
 
-TEST_F(Window, OpensAsAWindowOrFullScreenOnTheDisplayThatIsNamed) {
+TEST_F(Window, OpensWindowedOrFullScreenOnChosenDisplay) {
   const auto is_full = [] {
     return (SDL_GetWindowFlags(SDL_GL_GetCurrentWindow()) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
   };
@@ -433,7 +432,7 @@ TEST_F(Window, OpensAsAWindowOrFullScreenOnTheDisplayThatIsNamed) {
   }
 }
 
-TEST_F(Window, OutlivesALostOpenGlContext) {
+TEST_F(Window, RecoversFromLostOpenGlContext) {
   show(trial_state("sorting"));
   SDL_GL_DeleteContext(SDL_GL_GetCurrentContext());
   EXPECT_NO_THROW(view->present(picture_of(setup), trial_state("sorting")));
