@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Heft's events as a Lab Streaming Layer stream of markers, a line of JSON each.
+"""Sends Heft's events to a Lab Streaming Layer stream of markers, each a line of JSON.
 
     pip install pylsl
     python3 lsl_bridge.py 5005 &
     heft run PROTOCOL --participant 07 --events udp:127.0.0.1:5005
 
-A marker's time stamp is the event's own time: the smallest delay seen so far between an event and
-its arrival is taken for that of the way here, so that a late datagram moves no marker.
+Time stamps are those of the events, not of their arrival. The offset between the clocks is the smallest delay
+of arrival so far, so that a late datagram does not shift its marker.
 """
 import json
 import socket
@@ -21,7 +21,7 @@ def main(port):
     outlet = pylsl.StreamOutlet(info)
     events = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     events.bind(("127.0.0.1", port))
-    offset_s = {}  # of each session: from UTC to LSL's clock
+    offset_s = {}  # from UTC to LSL's clock, by session
     while True:
         line = events.recv(65536).decode().strip()
         arrived_s = pylsl.local_clock()
