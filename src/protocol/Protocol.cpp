@@ -12,7 +12,7 @@
 #include "base/files/Printable.h"
 #include "base/files/TextFile.h"
 #include "physics/DecouplingSimulator.h"
-#include "protocol/toml/ProtocolTables.h"
+#include "protocol/readers/ProtocolTables.h"
 #include "tasks/SessionPlan.h"
 
 namespace heft {
@@ -23,6 +23,8 @@ constexpr Range physics_rates_hz{1, 100000};
 constexpr Range predictions_s{0, 0.2};  // longer predictions of a hand are useless
 constexpr Range onsets_s{0, 60};
 constexpr Range text_sizes{least_text_size, most_text_size};
+constexpr Range fractions{0, 1};
+constexpr Range margins_percent{least, 50};
 
 void read_physics(TableReader& reader, Protocol& protocol) {
   reader.in_table("physics", [&](TableReader& table) {
@@ -140,7 +142,36 @@ void read_layout(TableReader& reader, Layout& layout, int n_cubes) {
                     "resting effector would never appear, expected at least as much",
                     layout.start_distance_m, layout.clear_m));
 }
+
+void read_analysis(TableReader& protocol, AnalysisPlan& plan) {
+  protocol.in_table("analysis", [&](TableReader& table) {
+    for (std::size_t i = 0; i < hypothesis_names.size(); ++i)
+      table.read(hypothesis_names.at(i), plan.tested.at(i));
+    table.read("equivalence_margin", plan.equivalence_margin, margins_percent);
+  });
+}
+
+void read_exclusion(TableReader& protocol, ExclusionRules& rules) {
+  protocol.in_table("exclusion", [&](TableReader& table) {
+    table.read("unfinished", rules.unfinished);
+    // Protocols in logs may have the former name.
+    table.read("impossible_answers", rules.anticipatory_responses, fractions);
+    table.read("anticipatory_responses", rules.anticipatory_responses, fractions);
+    table.read("false_alarms", rules.false_alarms, fractions);
+    table.read("out_of_view", rules.out_of_view, fractions);
+  });
+}
 }  // namespace
+
+bool AnalysisPlan::declares(std::string_view hypothesis) const {
+  const auto found = std::ranges::find(hypothesis_names, hypothesis);
+  return found != hypothesis_names.end() &&
+         tested.at(static_cast<std::size_t>(found - hypothesis_names.begin()));
+}
+
+bool AnalysisPlan::declares_any() const {
+  return std::ranges::count(tested, true) > 0;
+}
 
 Protocol parse_protocol(const std::string& text, const std::string& file,
                         const std::vector<ProtocolSetting>& settings) {

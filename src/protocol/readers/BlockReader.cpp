@@ -7,8 +7,7 @@
 #include "base/Names.h"
 #include "base/SimulationChoices.h"
 #include "experiment/Rows.h"
-#include "protocol/readers/ProcedureReader.h"
-#include "protocol/toml/ProtocolTables.h"
+#include "protocol/readers/ProtocolTables.h"
 #include "tasks/Tasks.h"
 
 namespace heft {

@@ -14,7 +14,7 @@
 #include "base/files/TextFile.h"
 #include "experiment/Participant.h"
 #include "experiment/Stage.h"
-#include "protocol/readers/ProcedureReader.h"
+#include "protocol/readers/ProtocolTables.h"
 #include "protocol/toml/TableReader.h"
 #include "protocol/toml/TomlDocument.h"
 #include "psychophysics/Interleaving.h"

@@ -1,8 +1,7 @@
-#include "protocol/readers/ProcedureReader.h"
-
 #include <fmt/format.h>
 
 #include "base/files/Printable.h"
+#include "protocol/readers/ProtocolTables.h"
 
 namespace heft {
 

@@ -8,7 +8,7 @@
 #include "base/math/Geometry.h"
 #include "physics/scene/Scene.h"
 #include "protocol/readers/Files.h"
-#include "protocol/toml/ProtocolTables.h"
+#include "protocol/readers/ProtocolTables.h"
 
 namespace heft {
 

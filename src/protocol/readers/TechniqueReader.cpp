@@ -5,8 +5,7 @@
 
 #include "base/SimulationChoices.h"
 #include "base/files/Printable.h"
-#include "protocol/readers/ProcedureReader.h"
-#include "protocol/toml/ProtocolTables.h"
+#include "protocol/readers/ProtocolTables.h"
 
 namespace heft {
 

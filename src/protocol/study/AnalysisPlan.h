@@ -32,10 +32,4 @@ struct ExclusionRules {
   bool any() const { return unfinished || anticipatory_responses || false_alarms || out_of_view; }
 };
 
-class TableReader;
-
-/// Reads and closes the tables, if they exist.
-void read_analysis(TableReader& protocol, AnalysisPlan& plan);
-void read_exclusion(TableReader& protocol, ExclusionRules& rules);
-
 }  // namespace heft

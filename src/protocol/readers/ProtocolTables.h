@@ -1,6 +1,8 @@
-// Readers of the tables of a protocol, some common to scene files, and --set.
+// Readers of the tables of a protocol, some common to scene and procedure files, and --set.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,8 @@
 #include "protocol/Protocol.h"
 #include "protocol/toml/TableReader.h"
 #include "protocol/toml/TomlDocument.h"
+#include "psychophysics/Interleaving.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 
@@ -48,5 +52,37 @@ void read_block_order(TableReader& protocol, std::vector<Block>& blocks);
 /// written as in TOML. Unknown keys are added, for the file's reader to report.
 /// @throws Error (usage) for a setting without "=", with an invalid value, or for a missing table
 void apply_settings(TomlTable& root, const std::vector<ProtocolSetting>& settings);
+
+/// The settings of a staircase, perhaps with mistakes.
+struct StaircaseSettings {
+  std::string name;
+  ProcedureKinds::Any config;
+
+  /// A valid procedure; a default one if the settings have (reported) mistakes.
+  Procedure procedure() const;
+};
+
+/// Reads name, kind and the kind's keys, closes the table and checks the settings; keys of the
+/// caller must be read before. None for an unknown kind, whose keys are not checked.
+std::optional<StaircaseSettings> read_staircase(TableReader& table);
+
+/// Reports settings that do not suit levels that are differences from a reference.
+void check_beside(TableReader& table, const StaircaseSettings& settings, double reference_g);
+
+/// Reads `interleave` and `max_lag`.
+InterleaveConfig read_interleaving(TableReader& table);
+
+/// Requires different names within a kind of table.
+class UniqueNames {
+ public:
+  /// @param what name of the kind in messages, e.g. "staircase"
+  explicit UniqueNames(std::string what) : what_(std::move(what)) {}
+  /// Reports a mistake at the table's `name` if an earlier table has it.
+  void check(TableReader& table, const std::string& name);
+
+ private:
+  std::string what_;
+  std::map<std::string, int> lines_;
+};
 
 }  // namespace heft

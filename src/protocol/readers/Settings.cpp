@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "protocol/toml/ProtocolTables.h"
+#include "protocol/readers/ProtocolTables.h"
 
 namespace heft {
 
