@@ -1,5 +1,5 @@
-// Files with one edit, for tests of mistakes. In an edit "^" marks the place where the mistake is
-// expected and is not part of the file.
+// Files with one edit, for tests of mistakes. "^" in an edit marks the expected place of the
+// mistake and is removed from the file.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ inline EditedFile edited(std::string text, const Edit& edit) {
   return file;
 }
 
-/// What parsing notes; none when it takes the file.
+/// The mistakes found by parsing; none if the file is valid.
 inline std::vector<Mistake> mistakes_of(const std::function<void()>& parse) {
   try {
     parse();
@@ -52,11 +52,11 @@ inline std::vector<Mistake> mistakes_of(const std::function<void()>& parse) {
   return {};
 }
 
-/// One mistake that an edit makes.
+/// An edit that causes one mistake.
 struct Broken {
   const char* name;
   Edit edit;
-  std::vector<std::string> says;  ///< what the message must contain
+  std::vector<std::string> says;  ///< parts of the expected message
 };
 
 inline std::string name_of_broken(const testing::TestParamInfo<Broken>& broken) {
@@ -67,7 +67,7 @@ inline void PrintTo(const Broken& broken, std::ostream* out) {
   *out << broken.edit.is;
 }
 
-/// Expects that the edit makes exactly one mistake, at the mark, which says what it must.
+/// Expects that the edit causes exactly one mistake, at the mark, with the expected message.
 inline void expect_broken(const std::string& base, const Broken& broken,
                           const std::function<void(const std::string& text)>& parse) {
   const auto file = edited(base, broken.edit);

@@ -1,4 +1,4 @@
-// [analysis] and [exclusion]: what a protocol declares beforehand.
+// [analysis] and [exclusion] of protocols.
 #include <gmock/gmock.h>
 
 #include "EditedFile.h"
@@ -13,7 +13,7 @@ Protocol with(const std::string& tables) {
   return parse_protocol(content_of(shipped_path("quick")) + tables, "x.toml");
 }
 
-TEST(AnalysisPlan, DeclaresNothingAndLeavesNobodyOutByDefault) {
+TEST(AnalysisPlan, DeclaresAndExcludesNothingByDefault) {
   const Protocol protocol = with("");
   EXPECT_FALSE(protocol.analysis.declares_any());
   EXPECT_EQ(protocol.analysis.equivalence_margin, 10);
@@ -34,7 +34,7 @@ TEST(AnalysisPlan, IsReadAndHashed) {
   EXPECT_NE(protocol.sha256, with("").sha256);
 }
 
-TEST(AnalysisPlan, RefusesWhatItDoesNotKnow) {
+TEST(AnalysisPlan, RefusesUnknownHypothesesAndFractionsAboveOne) {
   EXPECT_THROW(with("\n[analysis]\nE3-H1 = true\n"), InvalidFile);
   EXPECT_THROW(with("\n[exclusion]\nfalse_alarms = 1.5\n"), InvalidFile);
 }

@@ -1,4 +1,4 @@
-// Every mistake that a protocol can have, made one at a time and many at once.
+// Each mistake in protocols, one by one and many together.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -202,7 +202,9 @@ const Broken comparisons[] = {
      {"[[block.staircase]]\nname = \"15g\"\nreference_g = 15\nstart = 175\nstep = 50\nfloor = 0",
       "^[[block.staircase]]\nname = \"15g\"\nreference_g = 15\nstart = 175\nstep = 50"},
      {"lacks \"floor\"", "lighter than the reference", "0 or more"}},
-    {"floor_below_the_reference", {"floor = 0", "floor = ^-5"}, {"floor is -5", "lighter than the reference"}},
+    {"floor_below_the_reference",
+     {"floor = 0", "floor = ^-5"},
+     {"floor is -5", "lighter than the reference"}},
     {"catches_twice",
      {"catch_fraction = 0.1", "catch_fraction = ^0.1\ncatch_trials = 4"},
      {"catch_fraction together with catch_trials"}},

@@ -1,4 +1,4 @@
-// Whatever happens to a file, it is either taken or refused with places.
+// Randomly damaged files are either accepted or refused with the places of the mistakes.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -88,7 +88,7 @@ TEST(HostileFile, OfManyHugeNumbersIsRefused) {
   EXPECT_FALSE(mistakes_of([&] { parse_procedure(text, "x.toml"); }).empty());
 }
 
-RC_GTEST_PROP(DamagedFile, IsTakenOrRefusedWithPlaces, ()) {
+RC_GTEST_PROP(DamagedFile, IsAcceptedOrRefusedWithPlaces, ()) {
   std::string text = content_of(shipped_path(*rc::gen::elementOf(shipped_protocols())));
   const int n = *rc::gen::inRange(1, 6);
   for (int i = 0; i < n; ++i) damage(text);
@@ -97,7 +97,7 @@ RC_GTEST_PROP(DamagedFile, IsTakenOrRefusedWithPlaces, ()) {
   expect_taken_or_refused([&] { parse_scene(text, "x.toml"); });
 }
 
-RC_GTEST_PROP(DamagedFile, OfTagsIsTakenOrRefusedWithPlaces, ()) {
+RC_GTEST_PROP(DamagedFile, OfTagsIsAcceptedOrRefusedWithPlaces, ()) {
   const std::string folder = source_folder() + "/protocols/apparatus/";
   const std::string effector = content_of(folder + "effector.toml");
   std::string text = *rc::gen::element(
@@ -110,8 +110,8 @@ RC_GTEST_PROP(DamagedFile, OfTagsIsTakenOrRefusedWithPlaces, ()) {
   expect_taken_or_refused([&] { parse_synthetic_camera(text, "x.toml"); });
 }
 
-// A protocol that is taken can be used: its length is finite and its trials fit the area.
-RC_GTEST_PROP(DamagedFile, IsUsableWhenTaken, ()) {
+// The expected length of an accepted protocol is finite, and its trials fit the area.
+RC_GTEST_PROP(DamagedFile, IsUsableIfAccepted, ()) {
   std::string text = content_of(shipped_path(*rc::gen::elementOf(shipped_protocols())));
   damage(text);
   Protocol protocol;

@@ -8,7 +8,7 @@
 namespace heft {
 namespace {
 
-TEST(DisplayFile, ReadsBackWhatIsWritten) {
+TEST(DisplayFile, IsReadBackAsWritten) {
   const DisplayMeasures read = parse_display(to_toml({1024, 600, 154.25, 90.5, 450}), "d.toml");
   EXPECT_EQ(read.w_px, 1024);
   EXPECT_EQ(read.h_px, 600);
@@ -17,7 +17,7 @@ TEST(DisplayFile, ReadsBackWhatIsWritten) {
   EXPECT_EQ(read.eye_distance_mm, 450);
 }
 
-TEST(DisplayFile, WhatIsMissingOrImpossibleIsNamedAtItsLine) {
+TEST(DisplayFile, MissingAndInvalidKeysAreReportedWithTheirLines) {
   const std::string text = "width_px = 1024\nheight_px = 600\nwidth_mm = 0\nheight_mm = 90\n";
   try {
     parse_display(text, "d.toml");

@@ -1,4 +1,4 @@
-// The block of an estimation: the shipped example, and every mistake at its place.
+// Estimation blocks: the shipped example, and each mistake at its place.
 #include <gmock/gmock.h>
 
 #include "EditedFile.h"
@@ -12,7 +12,7 @@ std::string example() {
   return content_of(shipped_path("examples/estimation"));
 }
 
-TEST(EstimationBlock, OfTheExampleIsReadAsItIsWritten) {
+TEST(EstimationBlock, OfTheExampleHasItsKeys) {
   const Protocol protocol = load_protocol(shipped_path("examples/estimation"));
   const auto& block = *block_as<Estimation::Block>(protocol.blocks.at(1));
   EXPECT_THAT(block.masses_g, testing::ElementsAre(15, 50, 100, 200, 400));

@@ -28,8 +28,7 @@ TEST(ExpectedLength, AddsUpBlocks) {
   EXPECT_FALSE(depends_on_answers(protocol));
 }
 
-// What each task declares that a trial takes, not what a comparison does.
-TEST(ExpectedLength, AsksEachTaskWhatATrialTakes) {
+TEST(ExpectedLength, UsesTheTrialDurationOfEachTask) {
   Protocol protocol;
   protocol.onset.gap_s = 0;
   Tasks::each([&]<typename Kind>() {
@@ -46,7 +45,7 @@ TEST(ExpectedLength, CountsCatchTrials) {
   EXPECT_NEAR(total_of(expected_trials(protocol)), without / 0.8, 1e-9);
 }
 
-TEST(ExpectedLength, EndsWhereAStaircaseGetsNowhere) {
+TEST(ExpectedLength, IsLimitedForAnEndlessStaircase) {
   Comparison::Block block;
   block.staircases = {
       {1, {"long", UpDownConfig{.start = 1e6, .step = 1e-6, .stop_trials = 2'000'000'000}}, {}}};

@@ -1,4 +1,4 @@
-// Board and effector files: what they place where, and every mistake they can have.
+// Board and effector files: positions of tags, and each mistake at its place.
 #include <gtest/gtest.h>
 
 #include "EditedFile.h"
@@ -40,7 +40,7 @@ right = 33
 bottom = 34
 )";
 
-// On top of the box: the tag's up is towards the tip.
+// On the top face, the tag's upper side is towards the tip.
 const std::string effector_tags = R"(size_m = [0.090, 0.040, 0.040]
 [[tag]]
 id = 8
@@ -67,7 +67,7 @@ TEST(BoardFile, GridIsRowMajorFromTheFarLeft) {
   expect_near(last.corners_m[2], 0.140, -0.092, 0);
 }
 
-TEST(BoardFile, MayPlaceEachTagByItself) {
+TEST(BoardFile, MayPlaceEachTag) {
   const MarkerBody board = parse_board(board_tags, "x.toml");
   ASSERT_EQ(board.tags.size(), 2u);
   EXPECT_EQ(board.family, "tag25h9");
@@ -85,7 +85,7 @@ TEST(BoardFile, IsScaledByTheMeasuredRuler) {
       EXPECT_LT((scaled.tags[i].corners_m[c] - 1.02 * plain.tags[i].corners_m[c]).norm(), 1e-12);
 }
 
-// Printers stretch one direction more than the other.
+// Printers scale the two directions differently.
 TEST(BoardFile, IsScaledInBothDirectionsByTwoLengths) {
   const MarkerBody plain = parse_board(board_grid, "x.toml");
   const MarkerBody scaled =
@@ -101,7 +101,7 @@ TEST(BoardFile, IsScaledInBothDirectionsByTwoLengths) {
     }
 }
 
-// Tip: upright. Long faces: up is towards the tip, where the tags are.
+// The tip's tag is upright. On long faces, the tag's upper side is towards the tip.
 TEST(EffectorFile, BoxHasItsTagsAtTheTip) {
   const MarkerBody effector = parse_effector(effector_box, "x.toml");
   ASSERT_EQ(effector.tags.size(), 5u);
@@ -120,7 +120,7 @@ TEST(EffectorFile, BoxHasItsTagsAtTheTip) {
   expect_near(corner(34, 0), 0.040, -0.012, -0.018);
 }
 
-// Long faces stand upright on the sheet: what is along the effector was printed down it.
+// Long faces are upright on the sheet: the length of the effector is along the vertical ruler.
 TEST(EffectorFile, IsScaledInBothDirectionsByTwoLengths) {
   const MarkerBody plain = parse_effector(effector_box, "x.toml");
   const std::string text = "ruler_measured_m = [0.153, 0.147]\n" + effector_box;
@@ -149,7 +149,7 @@ upper_left = 42
 upper_right = 43
 )";
 
-// The faces between top and sides look up to the left and to the right, at 45 degrees.
+// The slanted faces between top and sides face up and to the left or right, at 45 degrees.
 TEST(EffectorFile, ChamferedBoxHasSlantedFaces) {
   const MarkerBody effector = parse_effector(effector_chamfered, "x.toml");
   ASSERT_EQ(effector.tags.size(), 4u);
@@ -160,7 +160,7 @@ TEST(EffectorFile, ChamferedBoxHasSlantedFaces) {
   expect_near(tag_normal(right), 0, -slant, slant);
   expect_near(tag_center_m(left), 0.027, 0.030, 0.0075);
   expect_near(tag_center_m(right), 0.027, -0.030, 0.0075);
-  // Upright towards the tip; the left one's own left is down.
+  // Upper sides are towards the tip; the left tag's left side is down.
   expect_near(left.corners_m[0], 0.041, 0.030 + 0.014 * slant, 0.0075 - 0.014 * slant);
   EXPECT_NE(described(effector).find("its upper edges cut by 25 mm"), std::string::npos);
   const MarkerBody again = parse_effector(effector_to_toml(effector, ""), "y.toml");
@@ -201,7 +201,7 @@ TEST(MarkerFile, BodiesMustNotShareTags) {
   EXPECT_NO_THROW(require_different_tags(parse_board(board_tags, "x.toml"), effector));
 }
 
-TEST(MarkerFile, IsDescribedForPeople) {
+TEST(MarkerFile, HasADescription) {
   EXPECT_EQ(described(parse_board(board_grid, "x.toml")),
             "24 tags of tag36h11, 40 mm, ids 7-30, over 280 x 184 mm, ruler not measured yet");
   EXPECT_EQ(described(parse_board(board_tags, "x.toml")),

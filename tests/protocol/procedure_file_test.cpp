@@ -73,7 +73,7 @@ TEST(ProcedureFile, ReadsEveryKey) {
   EXPECT_EQ(second.step_scale, StepScale::db);
 }
 
-TEST(ProcedureFile, AbsentKeysHaveTheDocumentedDefaults) {
+TEST(ProcedureFile, MissingKeysHaveTheDocumentedDefaults) {
   const InterleavedProcedures config =
       parse_procedure("[[staircase]]\nname = \"a\"\nstart = 10\nstep = 2\n", "short.toml");
   EXPECT_EQ(config.interleaving.interleave, Interleave::random);
@@ -95,12 +95,12 @@ TEST(ProcedureFile, AbsentKeysHaveTheDocumentedDefaults) {
   EXPECT_EQ(staircase.discard_reversals, 2);
 }
 
-TEST(ProcedureFile, TakesTheLargestSeed) {
+TEST(ProcedureFile, AcceptsTheLargestSeed) {
   const auto file = edited(procedure_file, {"seed = 42", "seed = 9223372036854775807"});
   EXPECT_EQ(parse_procedure(file.text, "f").seed, 9223372036854775807u);
 }
 
-TEST(ProcedureFile, TakesAUtf8FileWithWindowsLineEnds) {
+TEST(ProcedureFile, AcceptsUtf8WithWindowsLineEnds) {
   const std::string text =
       "# größe\r\n[[staircase]]\r\nname = \"große Stufe\"\r\nstart = 1\r\nstep = 1\r\n";
   EXPECT_EQ(parse_procedure(text, "f").staircases.at(0).name(), "große Stufe");
@@ -284,7 +284,7 @@ steps = [1, -1]
       << InvalidFile(mistakes).what();
 }
 
-TEST(ProcedureFile, AnUnreadableFileIsNoInvalidFile) {
+TEST(ProcedureFile, AnUnreadableFileIsNotAnInvalidFile) {
   try {
     load_procedure("no/such/file.toml");
     FAIL();

@@ -83,8 +83,8 @@ TEST(PaperProtocol, HasThePapersStaircases) {
                                  ElementsAre(800, 700, 200)));
 }
 
-// paper.toml promises that a key left out above the blocks has the value it has there.
-TEST(PaperProtocol, SpellsOutTheDefaults) {
+// As documented in paper.toml: missing keys above the blocks have its values.
+TEST(PaperProtocol, HasTheDefaults) {
   const Protocol paper = shipped("paper");
   const Protocol defaults = parse_protocol(
       "title = \"t\"\n[[block]]\nkind = \"demonstration\"\nname = \"d\"\n", "short.toml");
@@ -104,14 +104,14 @@ TEST(PaperProtocol, SpellsOutTheDefaults) {
   EXPECT_EQ(paper.layout.row_y_m, defaults.layout.row_y_m);
   EXPECT_EQ(paper.layout.start_distance_m, defaults.layout.start_distance_m);
   EXPECT_EQ(paper.layout.area_m, defaults.layout.area_m);
-  EXPECT_EQ(paper.layout.out_of_area, OutOfArea::together) << "better than what older logs had";
+  EXPECT_EQ(paper.layout.out_of_area, OutOfArea::together) << "the default is that of older logs";
   EXPECT_EQ(defaults.layout.out_of_area, OutOfArea::give_back);
   EXPECT_EQ(paper.layout.clear_m, defaults.layout.clear_m);
   EXPECT_EQ(std::get<DemonstrationBlock>(paper.blocks[0]).duration_s,
             std::get<DemonstrationBlock>(defaults.blocks[0]).duration_s);
 }
 
-TEST(PaperProtocol, SpellsOutTheDefaultsOfBlocks) {
+TEST(PaperProtocol, HasTheDefaultsOfBlocks) {
   const Protocol paper = shipped("paper");
   const auto& introduction = *block_as<Introduction::Block>(paper.blocks[1]);
   EXPECT_EQ(introduction.condition, Introduction::Block{}.condition);
@@ -142,7 +142,7 @@ TEST(PaperProtocol, SpellsOutTheDefaultsOfBlocks) {
   EXPECT_EQ(defaults.stop_trials, 200);
 }
 
-TEST(Protocol, APairIsOneStaircaseFromAboveAndOneFromBelowOtherwiseAlike) {
+TEST(Protocol, APairIsOneStaircaseFromAboveAndOneFromBelow) {
   const Protocol protocol = parse_protocol(
       "title = \"t\"\n[[block]]\nkind = \"comparison\"\nname = \"c\"\ncatch_trials = 4\n"
       "[[block.staircase]]\nname = \"s\"\npaired = true\nreference_g = 200\nstart = 90\n"
@@ -180,7 +180,7 @@ TEST(RecommendedProtocol, StartsEachReferenceFromAboveAndFromNearZero) {
             (std::map<double, std::pair<int, int>>{{15, {1, 1}}, {200, {1, 1}}, {800, {1, 1}}}));
 }
 
-TEST(Slots, StandInARowAroundTheMiddle) {
+TEST(Slots, AreInARowAroundTheMiddle) {
   Layout layout;
   layout.cube_size_m = 0.04;
   layout.gap_m = 0.06;
@@ -193,7 +193,7 @@ TEST(Slots, StandInARowAroundTheMiddle) {
   EXPECT_DOUBLE_EQ(slot_positions(layout, 2)[0].x(), -0.05);
 }
 
-TEST(Stage, ShowsWhatTheProtocolSays) {
+TEST(Stage, HasTheProtocolsGeometry) {
   Protocol protocol;
   protocol.display_rate_hz = 30;
   protocol.layout.start_distance_m = 0.07;
@@ -204,7 +204,7 @@ TEST(Stage, ShowsWhatTheProtocolSays) {
   EXPECT_EQ(stage.effector_size_m, protocol.effector_size_m);
 }
 
-TEST(Scene, HoldsTheTrialsCubesInKilograms) {
+TEST(Scene, HasTheTrialsCubesInKilograms) {
   Protocol protocol;
   const Scene scene = scene_of(protocol, "C1", {800, 15});
   EXPECT_FALSE(scene.coupling.decoupled);

@@ -1,4 +1,4 @@
-// Questionnaire files: the shipped ones, every mistake at its place, and how protocols ask them.
+// Questionnaire files: the shipped ones, each mistake at its place, and their use by protocols.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ kind = "text"
 text = "E?"
 )";
 
-TEST(QuestionnaireFile, ShippedOnesAreSoundAndNameTheirSource) {
+TEST(QuestionnaireFile, ShippedFilesAreValidAndNameTheirSource) {
   for (const std::string name : {"nasa_tlx", "borg_cr10", "presence", "ownership"}) {
     const std::string text = content_of(file_of(name));
     EXPECT_EQ(recognized_kind(text, "f"), FileKind::questionnaires);
@@ -65,7 +65,7 @@ TEST(QuestionnaireFile, ShippedOnesAreSoundAndNameTheirSource) {
   EXPECT_EQ(tlx.questionnaires.at("nasa_tlx").questions.size(), 6U);
 }
 
-// What is logged of a question does not depend on the language that it was asked in.
+// The logged part of a question, which does not depend on its language.
 std::string logged_of(const FormQuestion& question) {
   std::string all = question.key + ' ' + std::string(name_of(question.kind));
   for (const AnswerChoice& choice : question.choices) all += ' ' + choice.value;
@@ -73,7 +73,7 @@ std::string logged_of(const FormQuestion& question) {
          fmt::format(" {} {} {} {}", question.from, question.to, question.least, question.most);
 }
 
-TEST(QuestionnaireFile, ShippedOnesAreTheSameInFrenchAndSayThatTheyAreNotValidated) {
+TEST(QuestionnaireFile, ShippedFilesAreEqualInFrenchAndMarkedAsNotValidated) {
   for (const std::string name : {"nasa_tlx", "borg_cr10", "presence", "ownership"}) {
     const std::string text = content_of(file_of(name, "fr"));
     const ScreenTexts english = parse_questionnaires(content_of(file_of(name)), name),
@@ -88,7 +88,7 @@ TEST(QuestionnaireFile, ShippedOnesAreTheSameInFrenchAndSayThatTheyAreNotValidat
   }
 }
 
-TEST(QuestionnaireFile, MayStandBelowATextFile) {
+TEST(QuestionnaireFile, MayBeAppendedToATextFile) {
   const std::string texts = content_of(source_folder() + "/protocols/texts/en.toml");
   const ScreenTexts both = parse_texts(texts + '\n' + every_kind, "f");
   EXPECT_EQ(both.language, "en");
@@ -99,10 +99,10 @@ TEST(QuestionnaireFile, MayStandBelowATextFile) {
   EXPECT_EQ(q.questions[3].most, 120);
   EXPECT_THAT(page_text(both, "questionnaire_q"),
               ::testing::AllOf(HasSubstr("a_x: X"), HasSubstr("c_high: many")))
-      << "what people read is hashed";
+      << "all texts are hashed";
 }
 
-TEST(QuestionnaireFile, NumbersAreTakenInTheirRangeAlone) {
+TEST(QuestionnaireFile, NumbersOutsideTheirRangeAreRefused) {
   const auto read = parse_questionnaires(every_kind, "f");
   const FormQuestion& number = read.questionnaires.at("q").questions[3];
   for (const char* good : {"0", "12.5", "120"}) EXPECT_TRUE(takes_answer(number, good)) << good;
@@ -151,7 +151,7 @@ TEST(AskedQuestionnaires, ComeAfterABlockOrAtTheEnd) {
   EXPECT_EQ(protocol.screens.text_size, 1.25);
 }
 
-TEST(AskedQuestionnaires, AskedTwiceOrByNoNameAreRefused) {
+TEST(AskedQuestionnaires, RepeatedAndInvalidNamesAreRefused) {
   const auto mistake_in = [](const std::string& names) -> std::string {
     const auto mistakes = mistakes_of([&] { parse_protocol(protocol_asking(names), "p.toml"); });
     return mistakes.size() == 1 ? mistakes[0].message : "";
@@ -166,7 +166,7 @@ TEST(AskedQuestionnaires, AskedTwiceOrByNoNameAreRefused) {
         << name;
 }
 
-TEST(AskedQuestionnaires, AfterABlockThatIsNotThereAreRefused) {
+TEST(AskedQuestionnaires, AfterAnUnknownBlockAreRefused) {
   const auto mistakes = mistakes_of([] {
     parse_protocol(
         protocol_asking("[[screens.questionnaire]]\nname = \"q\"\nafter = \"sorting\"\n"),

@@ -56,7 +56,7 @@ TEST(SceneFile, ReadsEveryKey) {
   EXPECT_EQ(scene.cubes[1].yaw_rad, 0.25);
 }
 
-TEST(SceneFile, NumbersThatPhysicsCanNotBearAreRefusedWhereTheyStand) {
+TEST(SceneFile, ImplausibleNumbersAreRefusedAtTheirPlaces) {
   const auto refusal = [](const std::string& from, const std::string& to) -> std::string {
     std::string text = scene_file;
     try {
@@ -76,7 +76,7 @@ TEST(SceneFile, NumbersThatPhysicsCanNotBearAreRefusedWhereTheyStand) {
   EXPECT_THAT(refusal("[0.1, 0.03, 0.02]", "[0.1, 0.03, 1e11]"), HasSubstr("size_m"));
 }
 
-TEST(SceneFile, AbsentKeysAreThePapersDecoupling) {
+TEST(SceneFile, MissingKeysAreThePapersDecoupling) {
   const Scene scene = parse_scene("friction = 0.8\n", "short.toml");
   EXPECT_EQ(scene.gravity_m_s2, 9.81);
   EXPECT_TRUE(scene.coupling.decoupled);

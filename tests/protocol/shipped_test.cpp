@@ -1,4 +1,4 @@
-// The protocols that come with Heft, and how files are told apart.
+// The shipped protocols, and the recognition of files.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -26,7 +26,7 @@ TEST(Shipped, EveryProtocolIsRecognized) {
     EXPECT_EQ(recognized_kind(content_of(shipped_path(name)), name), FileKind::protocol);
 }
 
-TEST(FileKind, IsToldByTheTablesOfAFile) {
+TEST(FileKind, IsRecognizedByTheTablesOfAFile) {
   const auto kind = [](const std::string& text) { return recognized_kind(text, "f"); };
   EXPECT_EQ(kind("seed = 1\n[[staircase]]\nname = \"a\"\n"), FileKind::procedure);
   EXPECT_EQ(kind("[effector]\n[coupling]\n[[cube]]\n"), FileKind::scene);

@@ -1,4 +1,4 @@
-// What a study's plan reads as, and what it gives each participant.
+// Study plans: their files, and the places that they assign to participants.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ std::vector<std::string> names(std::size_t n) {
   return blocks;
 }
 
-TEST(Study, PathsCountFromItsFile) {
+TEST(Study, PathsAreRelativeToItsFile) {
   const StudyPlan plan = parse_study(
       study("db = \"logs/mass.db\"\nbackup = \"/media/stick\"\ndisplay_file = \"../d.toml\"\n"),
       "lab/STUDY.toml");
@@ -55,7 +55,7 @@ TEST(Study, IsRecognizedAmongFiles) {
   EXPECT_EQ(recognized_kind(study("language = \"fr\"\n"), "f"), FileKind::study);
 }
 
-TEST(Study, WithoutGroupsAndOrdersGivesTheProtocolAsItIs) {
+TEST(Study, WithoutGroupsAndOrdersHasTheProtocolsOrder) {
   const StudyPlan plan = parse_study(study(""), "lab/STUDY.toml");
   EXPECT_EQ(plan.groups.size(), 1u);
   EXPECT_EQ(order_setting(plan.orders.at(static_cast<std::size_t>(place_in(plan, 5).order))),
@@ -77,12 +77,12 @@ TEST(Study, ItsProtocolTakesTheOrder) {
   }
 }
 
-TEST(Study, NamesOfBlocksStandInSettingsWhateverTheyHold) {
+TEST(Study, NamesOfBlocksAreQuotedInSettings) {
   EXPECT_EQ(to_text(order_setting({"a\"b", "c\\\n"})),
             "block_order=[\"a\\\"b\", \"c\\\\\\u000A\"]");
 }
 
-TEST(StudyOrders, OfALatinSquareHaveEachBlockOnceAtEachPlace) {
+TEST(StudyOrders, OfALatinSquareHaveEachBlockOnceInEachPosition) {
   for (std::size_t n = 2; n <= 7; ++n) {
     const auto orders = designed_orders(OrderDesign::latin, names(n), n);
     ASSERT_EQ(orders.size(), n);
@@ -94,7 +94,7 @@ TEST(StudyOrders, OfALatinSquareHaveEachBlockOnceAtEachPlace) {
   }
 }
 
-TEST(StudyOrders, ThatAreBalancedHaveEachBlockAsOftenAfterEachOther) {
+TEST(StudyOrders, BalancedOrdersHaveEachBlockEquallyOftenAfterEachOther) {
   for (std::size_t n = 2; n <= 7; ++n) {
     const auto orders = designed_orders(OrderDesign::balanced, names(n), 11);
     EXPECT_EQ(orders.size(), n % 2 == 0 ? n : 2 * n);
@@ -117,7 +117,7 @@ StudyPlan three_groups_of_four_orders() {
   return plan;
 }
 
-TEST(StudyPlaces, OfARoundAreEachGroupWithEachOrderOnce) {
+TEST(StudyPlaces, OfARoundHaveEachGroupWithEachOrderOnce) {
   const StudyPlan plan = three_groups_of_four_orders();
   for (int round = 0; round < 3; ++round) {
     std::set<std::pair<int, int>> given;
@@ -130,7 +130,7 @@ TEST(StudyPlaces, OfARoundAreEachGroupWithEachOrderOnce) {
   }
 }
 
-TEST(StudyPlaces, FillTheGroupsEvenlyAllAlong) {
+TEST(StudyPlaces, AreBalancedOverGroupsAtAnyTime) {
   const StudyPlan plan = three_groups_of_four_orders();
   std::map<int, int> people;
   for (int number = 1; number <= 36; ++number) {
@@ -140,7 +140,7 @@ TEST(StudyPlaces, FillTheGroupsEvenlyAllAlong) {
   }
 }
 
-TEST(StudyPlaces, StayWhenMorePeopleArePlanned) {
+TEST(StudyPlaces, DoNotChangeWithMoreParticipants) {
   StudyPlan plan = three_groups_of_four_orders();
   StudyPlan larger = plan;
   larger.participants = 100;
@@ -150,7 +150,7 @@ TEST(StudyPlaces, StayWhenMorePeopleArePlanned) {
   }
 }
 
-TEST(StudyPlaces, ComeFromTheSeed) {
+TEST(StudyPlaces, DependOnTheSeed) {
   StudyPlan plan = three_groups_of_four_orders();
   StudyPlan other = plan;
   other.seed = 6;
@@ -178,7 +178,7 @@ TEST(BrokenStudy, IsRefusedAtItsPlace) {
               HasSubstr("STUDY.toml:8:8: another group is named \"a\""));
 }
 
-TEST(BrokenStudy, IdsThatNobodyCanHaveAreRefused) {
+TEST(BrokenStudy, InvalidIdsAreRefused) {
   EXPECT_THAT(mistakes_in(study("id_prefix = \"P\\u0007\"\n")),
               HasSubstr("lab/STUDY.toml:5:13: id_prefix \"P \" is invalid: the id contains the "
                         "control character U+0007"));
@@ -197,7 +197,7 @@ TEST(BrokenStudy, BlocksThatItsProtocolLacksAreNamed) {
       HasSubstr("STUDY.toml:10:10: blocks differ from those of the first row"));
 }
 
-TEST(BrokenStudy, AProtocolThatCantBeReadIsNamedWhereItStands) {
+TEST(BrokenStudy, AnUnreadableProtocolIsReportedAtItsPlace) {
   EXPECT_THAT(mistakes_in(study("", "none.toml")), HasSubstr("lab/STUDY.toml:4:12: "));
   EXPECT_THAT(mistakes_in(study("", "none.toml")), HasSubstr("lab/none.toml"));
   EXPECT_THAT(mistakes_in(study("", protocols + "apparatus/board.toml")),

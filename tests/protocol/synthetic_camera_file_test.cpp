@@ -1,4 +1,4 @@
-// Files of the synthetic camera: what they set, and every mistake they can have.
+// Files of the synthetic camera: their settings, and each mistake at its place.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -53,8 +53,8 @@ TEST(SyntheticCameraFile, SetsEveryImperfection) {
   EXPECT_FALSE(settings.hand);
 }
 
-// The shipped file explains the defaults, so it must be them.
-TEST(SyntheticCameraFile, ShippedIsTheUsualCamera) {
+// The shipped file documents the defaults.
+TEST(SyntheticCameraFile, ShippedFileHasTheDefaults) {
   const std::string shipped =
       content_of(source_folder() + "/protocols/apparatus/synthetic_camera.toml");
   EXPECT_EQ(recognized_kind(shipped, "x.toml"), FileKind::synthetic_camera);
@@ -87,14 +87,14 @@ TEST(SyntheticCameraFile, ShippedIsTheUsualCamera) {
     EXPECT_NE(shipped.find(std::string(key) + " = "), std::string::npos) << key;
 }
 
-// Any of its keys tells a file of a synthetic camera from one of another kind.
-TEST(SyntheticCameraFile, IsKnownByEachOfItsKeys) {
+// Each key is sufficient to recognize a file of a synthetic camera.
+TEST(SyntheticCameraFile, IsRecognizedByEachOfItsKeys) {
   std::istringstream lines(camera_file);
   for (std::string line; std::getline(lines, line);)
     EXPECT_EQ(recognized_kind(line, "x.toml"), FileKind::synthetic_camera) << line;
 }
 
-TEST(SyntheticCameraFile, IsDescribedByWhatIsNotUsual) {
+TEST(SyntheticCameraFile, DescriptionNamesUnusualValues) {
   EXPECT_EQ(described(SyntheticSettings()), "exposure 4 ms, blur 0.6 px, noise 3 levels, sRGB");
   EXPECT_EQ(described(parse_synthetic_camera(camera_file, "x.toml")),
             "exposure 10 ms, read-out 20 ms, blur 1.5 px, noise 8 levels, gamma 2.2, light 0.4, "

@@ -1,4 +1,4 @@
-// Techniques as data: declared, named by blocks and staircases, and what is wrong with them.
+// Techniques: declared, named by blocks and staircases, and mistakes in them.
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
@@ -81,7 +81,7 @@ TEST(Techniques, MakeTheScenesCoupling) {
   EXPECT_FALSE(scene_of(protocol, "C1", {15}).coupling.decoupled);
 }
 
-TEST(Techniques, ThatAreNotThereAreNamedWithTheirPlace) {
+TEST(Techniques, UnknownOnesAreReportedAtTheirPlaces) {
   EXPECT_THAT(what_is_wrong_in(declared_with("technique = \"soft\"", "technique = \"sft\"")),
               HasSubstr("techniques.toml:19:"));
   EXPECT_THAT(what_is_wrong_in(declared_with("tied = 3", "tide = 3")),
@@ -125,7 +125,7 @@ std::string mistakes_after(const std::string& from, const std::string& to) {
   return what_is_wrong_in(text.replace(text.find(from), from.size(), to));
 }
 
-TEST(Techniques, ThatDisplaceTheCloneAreTheScenes) {
+TEST(Techniques, DisplacementsArePassedToTheScene) {
   const Protocol protocol = parse_protocol(displacing, "techniques.toml");
   const Scene ratio = scene_of(protocol, "ratio", {15});
   EXPECT_FALSE(ratio.coupling.decoupled);
@@ -149,11 +149,12 @@ TEST(Techniques, AreChangedBySettings) {
                    0.3);
 }
 
-TEST(Techniques, WithAWrongTableAreRefusedAtTheirPlace) {
+TEST(Techniques, InvalidTablesAreRefusedAtTheirPlaces) {
   const auto expect = [](const std::string& from, const std::string& to, const std::string& what) {
     EXPECT_THAT(mistakes_after(from, to), HasSubstr(what)) << to;
   };
-  expect("[800, 0.2]", "[200, 0.2]", "techniques.toml:5:41: gain_of_mass changes from 200 to 200 g");
+  expect("[800, 0.2]", "[200, 0.2]",
+         "techniques.toml:5:41: gain_of_mass changes from 200 to 200 g");
   expect("[800, 0.2]", "[800]", "techniques.toml:5:41: gain_of_mass is an array, expected pairs");
   expect("[800, 0.2]", "[800, -0.2]",
          "techniques.toml:5:47: gain_of_mass is -0.2, expected a number, at least 0");

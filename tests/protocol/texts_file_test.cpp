@@ -1,4 +1,4 @@
-// Text files: the shipped ones, every mistake at its place, and the text that is hashed.
+// Text files: the shipped ones, each mistake at its place, and the hashed text.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,9 +26,8 @@ TEST(TextsFile, ShippedLanguagesAreComplete) {
   }
 }
 
-// The wording sets the criterion: nothing may name what the session studies.
-// Files that people keep were written before there was something to drag.
-TEST(TextsFile, MayLackWhatCameLater) {
+// Files written before --tracker mouse lack its text.
+TEST(TextsFile, MayLackLaterTexts) {
   std::string text = content_of(texts_path("en"));
   const auto at = text.find("drag_effector");
   ASSERT_NE(at, std::string::npos);
@@ -38,6 +37,7 @@ TEST(TextsFile, MayLackWhatCameLater) {
   EXPECT_TRUE(parse_texts(text, "f").if_any("no_page", "drag_effector").empty());
 }
 
+// The wording influences the criterion, so it must not reveal the subject of the study.
 TEST(TextsFile, ShippedTextsNameNeitherLagNorIllusionNorMassesNorConditions) {
   for (const std::string language : {"en", "fr"})
     for (const auto& [page, keys] : load_texts(texts_path(language)).pages)
@@ -57,8 +57,8 @@ TEST(TextsFile, EveryScreenHasItsPage) {
       EXPECT_TRUE(texts.pages.contains(text_page(static_cast<Screen>(screen), task)));
 }
 
-// A lab's own file from before a task serves every protocol without that task.
-TEST(TextsFile, MayLackATaskAndIsRefusedForItsProtocolsOnly) {
+// A text file that is older than a task can be used for protocols without that task.
+TEST(TextsFile, MayLackATaskExceptForItsProtocols) {
   for (const std::string_view task : words_of<Task>()) {
     std::string text = content_of(texts_path("en"));
     const std::string page = text_page(Screen::trial, task);
@@ -103,14 +103,14 @@ const std::vector<Broken> broken_texts{
 
 INSTANTIATE_TEST_SUITE_P(Each, BrokenTexts, testing::ValuesIn(broken_texts), name_of_broken);
 
-TEST(TextsFile, SaysThatTheLanguageIsMissing) {
+TEST(TextsFile, ReportsAMissingLanguage) {
   const EditedFile file = edited(content_of(texts_path("en")), {"language = \"en\"", ""});
   const auto mistakes = mistakes_of([&] { parse_texts(file.text, "x.toml"); });
   ASSERT_EQ(mistakes.size(), 1u);
   EXPECT_THAT(mistakes[0].message, testing::HasSubstr("lacks \"language\""));
 }
 
-TEST(PageText, IsTheSameForTheSameWordsWhereverTheyStand) {
+TEST(PageText, IsIndependentOfTheOrderOfKeys) {
   const std::string text = content_of(texts_path("en"));
   const EditedFile moved = edited(
       text, {"left = \"Left\"\nmiddle = \"Middle\"", "middle = \" Middle\"\n\nleft = \"Left\""});
