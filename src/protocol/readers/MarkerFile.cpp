@@ -135,24 +135,14 @@ void check_square(PlacedTag& placed) {
                              placed.tag.id, found));
 }
 
-// Reports a tag that faces the body's center: its corners are in reverse order.
-void check_outwards(PlacedTag& placed) {
-  if (!placed.table.good({corners})) return;
-  if (tag_normal(placed.tag).dot(tag_center_m(placed.tag)) <= 0)
-    placed.table.mistake(
-        corners, fmt::format("tag {} faces the effector's center; expected its corners clockwise "
-                             "as seen from outside, from the upright tag's top left",
-                             placed.tag.id));
-}
-
-// Reports a board's tag whose corners are in reverse order: it would be on the board's back.
-void check_upwards(PlacedTag& placed) {
-  if (!placed.table.good({corners})) return;
-  if (tag_normal(placed.tag).z() <= 0)
-    placed.table.mistake(
-        corners, fmt::format("tag {} faces down; expected its corners clockwise as seen from above "
-                             "the board, from the upright tag's top left",
-                             placed.tag.id));
+// Reports corners in reverse order, which put a tag on the wrong side of the paper.
+void check_front(PlacedTag& placed, bool is_visible, std::string_view faces,
+                 std::string_view seen_from) {
+  if (placed.table.good({corners}) && !is_visible)
+    placed.table.mistake(corners,
+                         fmt::format("tag {} faces {}; expected its corners clockwise as seen from "
+                                     "{}, from the upright tag's top left",
+                                     placed.tag.id, faces, seen_from));
 }
 
 // Reports ids that the family lacks, and repeated ones.
@@ -239,7 +229,7 @@ void append(std::vector<Tag>& tags, const std::vector<PlacedTag>& placed) {
   for (const PlacedTag& one : placed) tags.push_back(one.tag);
 }
 
-// Called after the file was closed, when a misspelled table has been reported.
+// Called after close(), which reports a misspelled table.
 void check_placed_once(TableReader& reader, const std::string& shorthand) {
   if (reader.has(shorthand) && reader.has("tag"))
     reader.mistake(
@@ -249,11 +239,11 @@ void check_placed_once(TableReader& reader, const std::string& shorthand) {
                    fmt::format("the file places no tags, expected [{}] or [[tag]]", shorthand));
 }
 
-void read_common(TableReader& reader, MarkerBody& body) {
+void read_family(TableReader& reader, MarkerBody& body) {
   if (const auto family = reader.read_name("family", tag_family_names())) body.family = *family;
 }
 
-// One length for both rulers, or one each: across the sheet, and down it.
+// One length for both rulers, or [across, down].
 void read_ruler(TableReader& reader, MarkerBody& body) {
   if (!reader.is_list("ruler_measured_m"))
     return reader.read("ruler_measured_m", body.measured_ruler_m, plausible_ruler_m);
@@ -263,7 +253,7 @@ void read_ruler(TableReader& reader, MarkerBody& body) {
   body.measured_across_m = both_m.y();
 }
 
-// The upper long edges may be cut off as long as some of the top and of the sides remains.
+// The cut-off upper edges must leave some of the top and of the sides.
 void read_chamfer(TableReader& reader, MarkerBody& body) {
   reader.read("chamfer_m", body.chamfer_m, zero_or_more);
   if (!reader.good({"size_m", "chamfer_m"})) return;
@@ -275,7 +265,6 @@ void read_chamfer(TableReader& reader, MarkerBody& body) {
                              body.chamfer_m, most_m));
   body.chamfer_m = 0;
 }
-
 }  // namespace
 
 MarkerBody parse_board(const std::string& text, const std::string& file) {
@@ -283,11 +272,12 @@ MarkerBody parse_board(const std::string& text, const std::string& file) {
   const TomlTable root = parse_toml(text, file);
   TableReader reader(root, mistakes);
   MarkerBody board;
-  read_common(reader, board);
+  read_family(reader, board);
   read_ruler(reader, board);
   if (auto grid = reader.table("grid")) board.tags = read_grid(*grid, board.family);
   std::vector<PlacedTag> tags = read_tags(reader);
-  std::ranges::for_each(tags, check_upwards);
+  for (PlacedTag& placed : tags)
+    check_front(placed, tag_normal(placed.tag).z() > 0, "down", "above the board");
   reader.close();
   check_placed_once(reader, "grid");
   check_ids(tags, board.family);
@@ -302,13 +292,15 @@ MarkerBody parse_effector(const std::string& text, const std::string& file) {
   TableReader reader(root, mistakes);
   MarkerBody effector;
   effector.size_m.setConstant(1);  // after a mistake in it, no other is reported
-  read_common(reader, effector);
+  read_family(reader, effector);
   read_ruler(reader, effector);
   reader.require({"size_m"});
   reader.read("size_m", effector.size_m, above_zero);
   read_chamfer(reader, effector);
   std::vector<PlacedTag> tags = read_tags(reader);
-  std::ranges::for_each(tags, check_outwards);
+  for (PlacedTag& placed : tags)
+    check_front(placed, tag_normal(placed.tag).dot(tag_center_m(placed.tag)) > 0,
+                "the effector's center", "outside");
   if (auto box = reader.table("box"))
     std::ranges::move(read_box(*box, effector.family, effector.box()), std::back_inserter(tags));
   reader.close();
