@@ -273,7 +273,7 @@ void run_command_line(const ProgramDescription& program, int argc, char** argv) 
   add_completion(all, app);
   std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   if (!words.empty() && words.front() == "help") {  // "help COMMAND" is "COMMAND --help"
-    std::ranges::rotate(words, words.begin() + 1);
+    std::rotate(words.begin(), words.begin() + 1, words.end());
     words.back() = "--help";
   }
   refuse_unknown_command(app, app.get_name(), words);

@@ -59,8 +59,8 @@ Projection sound_fold(const LogReader& reader, const LoggedSession& session) {
   const std::int64_t id = session.row.session_id;
   const auto fault = [&](const std::string& what) {
     return Error(
-        fmt::format("session {} of {} is not as it was written, at {}; nothing is computed "
-                    "from it. heft replay --db FILE --session {} says more",
+        fmt::format("session {} of {}: the log was changed, at {}; nothing is computed from it. "
+                    "Inspect it with: heft replay --db FILE --session {}",
                     id, session.db, what, id),
         ExitCode::diverged);
   };
