@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,6 +37,9 @@ constexpr std::optional<Enum> named(std::string_view name) {
 /// 2 and half the length of `wanted`.
 std::optional<std::string> nearest_name(std::string_view wanted,
                                         std::span<const std::string_view> candidates);
+
+/// "1 trial" or "2 trials"
+std::string counted(std::int64_t n, std::string_view what);
 
 /// "a", "b" or "c"
 std::string quoted_list(std::span<const std::string_view> names);

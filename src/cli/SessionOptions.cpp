@@ -244,11 +244,11 @@ void say_declined(const SessionResult& result, const std::string& db) {
 
 void say_finished(const SessionResult& result, const std::string& db) {
   if (result.end == RunEnd::declined) return say_declined(result, db);
-  say("session {} is finished: {} trials, {:.0f} min of session time, all saved in {}\n"
+  say("session {} is finished: {}, {:.0f} min of session time, all saved in {}\n"
       "results: heft analyse --db {}\n"
       "check the log: heft replay --db {} --session {}\n",
-      result.session_id, result.n_completed, result.duration_s / 60, db, shell_quoted(db),
-      shell_quoted(db), result.session_id);
+      result.session_id, counted(result.n_completed, "trial"), result.duration_s / 60, db,
+      shell_quoted(db), shell_quoted(db), result.session_id);
 }
 
 SessionResult run_session(const CommandedSession& session,

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/Error.h"
+#include "base/Names.h"
 #include "view/text/Typeface.h"
 #include "window/GlWindow.h"
 
@@ -41,7 +42,7 @@ CheckResult check_graphics() try {
 CheckResult check_touch() {
   const int n = SDL_GetNumTouchDevices();
   if (n == 0) return {CheckVerdict::ok, "touch", "no touch screen; a mouse works, too"};
-  return {CheckVerdict::ok, "touch", fmt::format("{} touch device{}", n, n > 1 ? "s" : "")};
+  return {CheckVerdict::ok, "touch", counted(n, "touch device")};
 }
 }  // namespace
 

@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "analysis/report/Notes.h"
 #include "analysis/report/Report.h"
 #include "analysis/report/Table.h"
 #include "analysis/report/Tables.h"
+#include "base/Names.h"
 #include "base/files/Printable.h"
 
 namespace heft {
@@ -73,8 +75,8 @@ std::string trials_in_words(const Summary& summary, const std::string& done) {
   if (n_completed == 0) return "No trial was completed.";
   std::vector<std::string> counts;
   for (const auto& [task, n] : by_task) counts.push_back(fmt::format("{} {}", n, name_of(task)));
-  const std::string text = fmt::format("{} trial{} completed: {}", n_completed,
-                                       n_completed == 1 ? "" : "s", fmt::join(counts, ", "));
+  const std::string text =
+      fmt::format("{} completed: {}", counted(n_completed, "trial"), fmt::join(counts, ", "));
   return text + (done.empty() ? "." : "; " + done);
 }
 
@@ -148,8 +150,8 @@ std::string staircase_sentence(const Summary& summary) {
                        results.size(), some_of(reasons, 3));
   }
   if (n_unfinished > 0)
-    text += fmt::format("{}{:.0f} staircase{} did not finish.", text.empty() ? "" : " ",
-                        n_unfinished, n_unfinished == 1 ? "" : "s");
+    text += fmt::format("{}{} did not finish.", text.empty() ? "" : " ",
+                        counted(std::lround(n_unfinished), "staircase"));
   return text;
 }
 

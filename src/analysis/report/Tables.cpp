@@ -6,6 +6,7 @@
 
 #include "analysis/measures/Section.h"
 #include "analysis/report/Notes.h"
+#include "base/Names.h"
 
 namespace heft {
 
@@ -33,10 +34,6 @@ std::string hypotheses_text(const Summary& summary) {
     for (const std::string& figure : hypothesis.figures) text += fmt::format("\n    {}", figure);
   }
   return text + '\n';
-}
-
-std::string counted(std::size_t n, std::string_view what) {
-  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 }  // namespace
 

@@ -98,7 +98,8 @@ std::string without_formula(std::string_view text) {
   const auto first = static_cast<unsigned char>(text.front());
   const bool is_control = first < first_printable || first == delete_key;
   const bool is_formula = std::string_view("=+-@'").find(text.front()) != std::string_view::npos;
-  return (is_control || is_formula ? "'" : "") + std::string(text);
+  std::string safe = is_control || is_formula ? "'" : "";
+  return safe.append(text);
 }
 
 }  // namespace heft

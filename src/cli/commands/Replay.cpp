@@ -10,6 +10,7 @@
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "base/Clock.h"
 #include "base/Error.h"
+#include "base/Names.h"
 #include "cli/Commands.h"
 #include "cli/SessionOptions.h"
 #include "cli/console/Terminal.h"
@@ -105,7 +106,8 @@ std::string how_frames_were_checked(const Verification& found) {
     how.push_back(n_same == found.n_frames
                       ? "equal bits required"
                       : fmt::format("of the other {} equal bits required", n_same));
-  return fmt::format("{} frames simulated again, {}", found.n_frames, fmt::join(how, "; "));
+  return fmt::format("{} simulated again, {}", counted(found.n_frames, "frame"),
+                     fmt::join(how, "; "));
 }
 
 // @return whether the log agrees with its events
@@ -271,7 +273,7 @@ OtherResponder run_again(const LogReader& reader, const LoggedSession& session,
   RunnerOptions runner;
   runner.keep_frames = false;
   runner.progress = [&](const Engine& engine) {
-    bar.update(0, fmt::format("{} trials", engine.n_completed()));
+    bar.update(0, counted(engine.n_completed(), "trial"));
   };
   return compare_sessions(reader, session_id, compute_session(request, runner));
 }
@@ -339,7 +341,7 @@ void show(const LogReader& reader, const ReplayOptions& options) {
   const int n =
       show_session(reader, session, *view,
                    {options.supposes() ? &what_if : nullptr, entry.has_screen, &stop.requested()});
-  print("session {}: {} frames shown\n", session.row.session_id, n);
+  print("session {}: {} shown\n", session.row.session_id, counted(n, "frame"));
   if (stop.requested()) throw Error("stopped before the last frame", ExitCode::interrupted);
 }
 

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "base/Error.h"
+#include "base/Names.h"
 #include "cli/Commands.h"
 #include "cli/SessionOptions.h"
 #include "cli/console/Terminal.h"
@@ -59,10 +60,10 @@ void simulate_participants(const SimulateOptions& options) {
         stop.requested());
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
-  say("{} participants in {:.1f} s: {:.1f} participants/min with {} thread{}\n", stored,
-      elapsed.count(), 60 * stored / elapsed.count(), request.jobs, request.jobs == 1 ? "" : "s");
+  say("{} in {:.1f} s: {:.1f} participants/min with {}\n", counted(stored, "participant"),
+      elapsed.count(), 60 * stored / elapsed.count(), counted(request.jobs, "thread"));
   if (stored < request.participants)
-    throw Error(fmt::format("stopped; {} participants are stored in {}", stored, request.db),
+    throw Error(fmt::format("stopped; {} in {}", counted(stored, "stored participant"), request.db),
                 ExitCode::interrupted);
   say("results: heft analyse --db {}\n", shell_quoted(request.db));
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <future>
 #include <limits>
 #include <map>
@@ -108,9 +109,9 @@ std::string described(const Protocol& protocol, std::vector<std::string>& cautio
       simulated = fmt::format(" ({:.0f} to {:.0f} in {} simulated participants)", taken->least,
                               taken->most, participants);
     }
-  std::string text =
-      fmt::format("about {:.0f} trials{} and {:.0f} min (assuming {})", total_of(trials), simulated,
-                  expected_minutes(protocol, trials), assumed_text(trials));
+  std::string text = fmt::format("about {}{} and {:.0f} min (assuming {})",
+                                 counted(std::lround(total_of(trials)), "trial"), simulated,
+                                 expected_minutes(protocol, trials), assumed_text(trials));
   if (protocol.simulator.name == "auto") text += "; " + described(resolve_auto(protocol));
   return text;
 }

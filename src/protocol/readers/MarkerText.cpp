@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/Error.h"
+#include "base/Names.h"
 #include "base/files/TextFile.h"
 #include "protocol/readers/Files.h"
 #include "tracking/pose/MarkerBody.h"
@@ -68,10 +69,9 @@ std::string as_row(const Eigen::Vector3d& v) {
 
 std::string described(const MarkerBody& body) {
   const std::vector<int> ids = sorted_ids(body);
-  const char* plural = ids.size() == 1 ? "" : "s";
-  return fmt::format("{} tag{} of {}, {}, id{} {}, {}, {}", ids.size(), plural, body.family,
-                     sides_in_words(body), plural, ids_in_words(ids), extent_in_words(body),
-                     ruler_in_words(body));
+  return fmt::format("{} of {}, {}, {} {}, {}, {}", counted(std::ssize(ids), "tag"), body.family,
+                     sides_in_words(body), ids.size() == 1 ? "id" : "ids", ids_in_words(ids),
+                     extent_in_words(body), ruler_in_words(body));
 }
 
 void require_different_tags(const MarkerBody& board, const MarkerBody& effector) {
