@@ -63,16 +63,8 @@ struct TakenPicture {
 };
 using TakePicture = std::function<void(const TakenPicture&)>;
 
-// A picture of another size than the camera's is not decoded: the tracker reports it.
-TakenPicture read_picture(const std::string& file, double t_s, const Intrinsics& camera) {
+TakenPicture read_picture(const std::string& file, double t_s) {
   try {
-    const auto size = size_in_header(file);
-    if (size && (size->width != camera.width_px || size->height != camera.height_px)) {
-      TakenPicture other{{}, t_s, file, ""};
-      other.image.width = size->width;
-      other.image.height = size->height;
-      return other;
-    }
     return {read_image(file), t_s, file, ""};
   } catch (const Error& error) {
     return {{}, t_s, file, error.what()};
@@ -94,14 +86,14 @@ void each_of_camera(const std::string& kind, const std::string& what, const Take
   }
 }
 
-void each_picture(const TrackOptions& options, const Intrinsics& camera, const TakePicture& take) {
+void each_picture(const TrackOptions& options, const TakePicture& take) {
   const std::vector<std::string>& frames = options.frames;
   const bool one = frames.size() == 1;
   if (one && std::filesystem::is_directory(frames[0]))
     return each_of_camera("frames", frames[0], take);
   if (one && !is_image_file(frames[0])) return each_of_camera("video", frames[0], take);
   for (std::size_t i = 0; i < frames.size(); ++i)
-    take(read_picture(frames[i], static_cast<double>(i) / options.rate_hz, camera));
+    take(read_picture(frames[i], static_cast<double>(i) / options.rate_hz));
 }
 
 TrackedPicture track_named(Tracker& tracker, const TakenPicture& picture) {
@@ -155,7 +147,7 @@ void run_track(const TrackOptions& options) {
       pose_columns);
   long frame = 0, n_damaged = 0;
   Sightings sightings;
-  each_picture(options, apparatus.camera, [&](const TakenPicture& picture) {
+  each_picture(options, [&](const TakenPicture& picture) {
     if (!picture.damage.empty()) {
       ++n_damaged;
       say("frame {}: {}\n", frame, picture.damage);

@@ -132,21 +132,21 @@ class PictureFolder : public Camera {
 
  private:
   Image read(std::size_t i, double t_s) const {
-    refuse_another_size(i);
+    Image image;
     try {
-      return read_image(path_of(i));
+      image = read_image(path_of(i));
     } catch (const Error& error) {
       throw DamagedPicture(error.what(), names_[i], t_s);
     }
+    require_same_size(image, i);
+    return image;
   }
-  // A picture whose header has another size is not decoded.
-  void refuse_another_size(std::size_t i) const {
-    const auto size = size_in_header(path_of(i));
-    if (!size || (size->width == first_.width && size->height == first_.height)) return;
+  void require_same_size(const Image& image, std::size_t i) const {
+    if (image.width == first_.width && image.height == first_.height) return;
     throw Error(fmt::format(
         "{} is {} x {} pixels, but the first picture of its folder, {}, has {} x {}; expected "
         "pictures of one size",
-        path_of(i), size->width, size->height, names_[0], first_.width, first_.height));
+        path_of(i), image.width, image.height, names_[0], first_.width, first_.height));
   }
   std::string path_of(std::size_t i) const { return (fs::path(folder_) / names_[i]).string(); }
 

@@ -1,23 +1,11 @@
 // Pictures as files: PNG, JPEG, PGM, BMP, TIFF... by the file's name.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "base/Image.h"
 
 namespace heft {
-
-struct PictureSize {
-  int width = 0, height = 0;
-};
-
-/// Size in the header of a PNG, JPEG, BMP, PGM, PPM or TIFF, without decoding; none for other
-/// formats and incomplete headers.
-std::optional<PictureSize> size_in_header(const std::string& path);
-
-/// A picture of more pixels is refused before it is decoded.
-inline constexpr double most_picture_pixels = 1e8;
 
 /// Gray pictures have 1 channel, others 3 (blue, green, red; transparency is dropped); 16-bit
 /// pictures are converted to 8 bits.

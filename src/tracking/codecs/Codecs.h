@@ -28,7 +28,11 @@ struct Codecs {
                                              double rate_hz, int width, int height);
 };
 
-/// Loads the module on first use. Thread-safe.
+/// A picture or video of more pixels a frame is refused before it is decoded.
+inline constexpr double most_picture_pixels = 1e8;
+
+/// Loads the module on first use, with that limit unless OPENCV_IO_MAX_IMAGE_PIXELS sets another.
+/// Thread-safe.
 /// @throws Error naming the module and the reason if it cannot be loaded
 const Codecs& codecs();
 

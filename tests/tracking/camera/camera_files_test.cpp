@@ -56,55 +56,17 @@ TEST(ImageFile, ReadsWhatItWrote) {
   }
 }
 
-TEST(ImageFile, TellsASizeFromTheHeader) {
+TEST(ImageFile, RefusesTooManyPixels) {
   const TemporaryFolder folder;
-  for (const char* name : {"a.png", "a.jpg", "a.bmp", "a.pgm", "a.ppm", "a.tif"}) {
-    write_image(folder.file(name), plain(9, std::string(name) == "a.pgm" ? 1 : 3));
-    const auto size = size_in_header(folder.file(name));
-    ASSERT_TRUE(size) << name;
-    EXPECT_EQ(size->width, 32) << name;
-    EXPECT_EQ(size->height, 24) << name;
-  }
-  write_text(folder.file("text.png"), "no picture at all, but long enough for a header");
-  EXPECT_FALSE(size_in_header(folder.file("text.png")));
-  EXPECT_FALSE(size_in_header(folder.file("none.png")));
-}
-
-TEST(ImageFile, AnAbsurdSizeIsRefusedBeforeDecoding) {
-  const TemporaryFolder folder;
-  write_image(folder.file("a.png"), plain(9));
-  std::fstream file(folder.file("a.png"), std::ios::in | std::ios::out | std::ios::binary);
-  file.seekp(16).write("\0\0\x4E\x20\0\0\x4E\x20", 8);  // 20000 x 20000
-  file.close();
+  write_image(folder.file("a.png"), Image(10001, 10000, 1));
   EXPECT_THAT(message_of([&] { read_image(folder.file("a.png")); }),
-              HasSubstr("declares 20000 x 20000 pixels"));
+              HasSubstr("larger than 1e+08 pixels"));
 }
 
-// Its directory is behind the pixels.
-TEST(ImageFile, AnAbsurdTiffIsRefusedBeforeDecoding) {
-  const TemporaryFolder folder;
-  write_image(folder.file("a.tif"), Image(640, 480, 1));
-  std::fstream file(folder.file("a.tif"), std::ios::in | std::ios::out | std::ios::binary);
-  std::array<unsigned char, 8> header{};
-  file.read(reinterpret_cast<char*>(header.data()), 8);
-  ASSERT_EQ(header[0], 'I');
-  const long directory = header[4] | header[5] << 8 | header[6] << 16 | header[7] << 24;
-  for (long entry = directory + 2; entry < directory + 2 + 12L * 8; entry += 12) {
-    std::array<unsigned char, 2> what{};
-    file.seekg(entry).read(reinterpret_cast<char*>(what.data()), 2);
-    if (what[1] == 1 && what[0] <= 1)  // width and height: as a number of 32 bits
-      file.seekp(entry + 2).write("\4\0\1\0\0\0\x20\x4E\0\0", 10);
-  }
-  file.close();
-  EXPECT_THAT(message_of([&] { read_image(folder.file("a.tif")); }),
-              HasSubstr("declares 20000 x 20000 pixels"));
-}
-
-TEST(PictureFolder, RefusesAPictureOfAnotherSizeByItsHeader) {
+TEST(PictureFolder, RefusesAPictureOfAnotherSize) {
   const TemporaryFolder folder;
   write_image(folder.file("a.png"), plain(9));
   write_image(folder.file("b.png"), Image(64, 48, 1));
-  std::filesystem::resize_file(folder.file("b.png"), 40);  // nothing but a header is left
   const auto camera = open_camera("frames", folder.file(""));
   ASSERT_TRUE(camera->next(0));
   EXPECT_THAT(message_of([&] { camera->next(0); }),
