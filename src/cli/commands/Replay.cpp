@@ -21,7 +21,6 @@
 #include "protocol/readers/Files.h"
 #include "record/reader/LogReader.h"
 #include "replay/ReplayView.h"
-#include "replay/WhatIf.h"
 #include "session/Session.h"
 
 namespace heft::cli {
@@ -35,7 +34,7 @@ struct ReplayOptions {
   std::optional<std::string> simulator;
   std::optional<Plug> view;
   std::vector<ProtocolSetting> set;
-  bool rerun = false, json = false;
+  bool rerun = false, json = false, tables = false;
   bool supposes() const { return simulator || !set.empty(); }
   bool judges() const { return responder && !rerun; }
 };
@@ -65,6 +64,9 @@ void check(const ReplayOptions& options) {
         "a --responder judges the displayed frames, which --set and --simulator would change; add "
         "--rerun to run the trials again");
   if (!options.rerun) check_world(options.set);
+  if (options.tables &&
+      (options.rerun || options.json || !(options.responder || options.supposes())))
+    refuse("--tables requires --set, --simulator or a --responder, without --rerun and --json");
   if (options.json && !options.judges()) refuse("--json requires a --responder without --rerun");
   if (options.view && options.responder)
     refuse(
@@ -172,66 +174,6 @@ void verify_all(const LogReader& reader, const ReplayOptions& options) {
   if (!same) throw Error(fmt::format("{} contradicts its events", options.db), ExitCode::diverged);
 }
 
-void print_paths(const std::vector<PathDifference>& differences) {
-  print(
-      "  positions with the change against the log (mm):\n"
-      "  {:<13} {:<4} {:>9} {:>11} {:>10} {:>11} {:>10}\n",
-      "task", "", "frames", "clone RMS", "clone max", "cubes RMS", "cubes max");
-  for (const PathDifference& d : differences)
-    print("  {:<13} {:<4} {:>9} {:>11.4f} {:>10.4f} {:>11.4f} {:>10.4f}\n", name_of(d.task),
-          d.condition, d.n_pictures, 1e3 * d.clone_rms_m, 1e3 * d.clone_max_m, 1e3 * d.cubes_rms_m,
-          1e3 * d.cubes_max_m);
-}
-
-std::string both(const std::string& logged, const std::string& would_be) {
-  return fmt::format("{:>7} > {:<7}", logged, would_be);
-}
-
-std::string millimeters(double logged_m, double would_be_m) {
-  return both(fmt::format("{:.2f}", 1e3 * logged_m), fmt::format("{:.2f}", 1e3 * would_be_m));
-}
-
-std::string as_grams(double lag_m, const std::optional<double>& g_per_m) {
-  return g_per_m ? fmt::format("{:.1f}", *g_per_m * lag_m) : "-";
-}
-
-// Largest lag of each push, mean over pushes; path of each pushed cube, mean over cubes.
-void print_visible_cues(const std::vector<PathDifference>& differences) {
-  print(
-      "  visible cues, logged > recomputed: the clone's largest lag along a push (mean, maximum, "
-      "and\n"
-      "  in grams if it depends on mass), the path of a pushed cube and its end's distance from "
-      "its\n"
-      "  start (means)\n"
-      "  {:<13} {:<4} {:>7} {:^17} {:^17} {:^17} {:^17} {:^17} {:^17}\n",
-      "task", "", "cube g", "pushes", "lag mm", "largest lag mm", "lag as g", "path mm", "end mm");
-  for (const PathDifference& d : differences)
-    for (const auto& [mass_g, logged, would_be] : d.noticed)
-      print("  {:<13} {:<4} {:>7g} {} {} {} {} {} {}\n", name_of(d.task), d.condition, mass_g,
-            both(std::to_string(logged.n_pushes), std::to_string(would_be.n_pushes)),
-            millimeters(logged.mean_lag_m(), would_be.mean_lag_m()),
-            millimeters(logged.largest_lag_m, would_be.largest_lag_m),
-            both(as_grams(logged.mean_lag_m(), d.logged_g_per_m),
-                 as_grams(would_be.mean_lag_m(), d.would_be_g_per_m)),
-            millimeters(logged.mean_path_m(), would_be.mean_path_m()),
-            millimeters(logged.mean_end_m(), would_be.mean_end_m()));
-}
-
-std::string grams(const std::optional<double>& value_g) {
-  return value_g ? fmt::format("{:.1f} g", *value_g) : "none";
-}
-
-void print_responder(const OtherResponder& other) {
-  print("  {:<13} {:<4} {:>20} {:>20}\n", "task", "", "logged, right of n", "would be, right of n");
-  for (const OutcomeDifference& o : other.outcomes)
-    print("  {:<13} {:<4} {:>20} {:>20}\n", name_of(o.task), o.condition,
-          fmt::format("{} of {}", o.n_logged_correct, o.n_logged),
-          fmt::format("{} of {}", o.n_would_be_correct, o.n_would_be));
-  for (const EstimateDifference& e : other.estimates)
-    print("  JND of staircase {:<12} logged {:>9}, would be {:>9}\n", '"' + e.staircase + '"',
-          grams(e.logged_g), grams(e.would_be_g));
-}
-
 // The logged protocol and configuration with the changes.
 struct Supposed {
   Protocol protocol;
@@ -284,12 +226,10 @@ void ask_what_if(const LogReader& reader, const ReplayOptions& options) {
     const Supposed would_be = supposed(session, options);
     print("session {}, participant {}:\n", session_id, session.row.header.participant);
     if (options.rerun) {
-      print_responder(run_again(reader, session, *options.responder, would_be));
+      print_rerun(run_again(reader, session, *options.responder, would_be));
       continue;
     }
-    const auto differences = compare_paths(reader, session, would_be.protocol);
-    print_paths(differences);
-    print_visible_cues(differences);
+    print_paths(compare_paths(reader, session, would_be.protocol), options.tables);
   }
 }
 
@@ -306,7 +246,7 @@ void judge(const LogReader& reader, const ReplayOptions& options) {
                       std::move(judgments), monotonic_s() - start_s});
   }
   if (options.json) return fmt::print("{}", as_json(judged));
-  for (const AnsweredSession& session : judged) print_offline_responder(session);
+  for (const AnsweredSession& session : judged) print_offline_responder(session, options.tables);
 }
 
 // The log's texts, if it has any.
@@ -365,6 +305,7 @@ void add_replay(Command& app) {
                 "its answers; the logged one without a file has its logged parameters");
   command.add_flag("--rerun", options->rerun, "run the trials again with the responder instead");
   command.add_flag("--json", options->json, "the responder's answers as JSON");
+  command.add_flag("--tables", options->tables, "all tables instead of a summary");
   command.add_option("--simulator", &options->simulator,
                      "simulate the logged hand with this simulator, and compare lags and paths");
   add_settings(command, options->set,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/Names.h"
 #include "cli/console/Terminal.h"
 #include "cli/reports/Reports.h"
 #include "inference/Statistics.h"
@@ -52,15 +53,15 @@ void print_detection(const char* whose, const std::optional<Detection>& found) {
         z_95 * found->d_prime_se, found->criterion, z_95 * found->criterion_se);
 }
 
-void print_agreement(const Agreement& group) {
+void print_agreement(const Agreement& group, bool tables) {
   const std::string reference =
       group.reference_g ? fmt::format(", reference {:g} g", *group.reference_g) : "";
   print("  {} {}{}: {}\n", name_of(group.task), group.condition, reference,
         agreement(group.answers));
-  print_confusion(group.answers);
+  if (tables) print_confusion(group.answers);
   if (group.labels.n() > 0) {
     print("    labels of cubes: {}\n", agreement(group.labels));
-    print_confusion(group.labels);
+    if (tables) print_confusion(group.labels);
   }
   print_detection("logged", group.logged);
   print_detection("responder", group.judged);
@@ -123,23 +124,24 @@ ordered_json object_of(const AnsweredSession& session) {
 }
 }  // namespace
 
-void print_offline_responder(const AnsweredSession& session) {
+void print_offline_responder(const AnsweredSession& session, bool tables) {
   const OfflineAnswers& judgments = session.judgments;
   print("session {}, participant {}, {} judging the displayed frames:\n", session.session_id,
         session.participant, session.responder);
-  for (const Agreement& group : agreements(judgments.trials)) print_agreement(group);
+  for (const Agreement& group : agreements(judgments.trials)) print_agreement(group, tables);
   if (judgments.n_without_frames > 0)
-    print("  {} completed trials were not judged: the log has no frames of them\n",
-          judgments.n_without_frames);
+    print("  not judged: {} without frames in the log\n",
+          counted(judgments.n_without_frames, "trial"));
   if (judgments.n_without_answer > 0)
-    print("  {} completed trials were not judged: {} has no answer to them\n",
-          judgments.n_without_answer, session.responder);
+    print("  not judged: {} to which {} has no answer\n",
+          counted(judgments.n_without_answer, "trial"), session.responder);
   if (judgments.trials.empty()) return print("  no trial was judged\n");
   print(
-      "  95 % intervals: exact (Clopper-Pearson) over trials for agreement; 1.96 standard errors "
-      "(Gourevitch & Galanter)\n  for d' and criterion, from log-linear rates\n"
-      "  {} trials judged, {:.0f} times real time\n",
-      judgments.trials.size(), times_real_time(session));
+      "  95 % intervals: exact (Clopper-Pearson) over trials for agreement; for d' and\n"
+      "  criterion 1.96 standard errors (Gourevitch & Galanter), from log-linear rates\n"
+      "  {} judged, {:.0f} times real time{}\n",
+      counted(std::ssize(judgments.trials), "trial"), times_real_time(session),
+      tables ? "" : "; which answers differ: --tables");
 }
 
 std::string as_json(const std::vector<AnsweredSession>& sessions) {

@@ -13,6 +13,7 @@
 #include "experiment/ScreenTexts.h"
 #include "record/reader/LogReader.h"
 #include "replay/OfflineResponder.h"
+#include "replay/WhatIf.h"
 
 namespace heft {
 struct Protocol;
@@ -50,7 +51,14 @@ struct AnsweredSession {
   double took_s = 0;  ///< wall time of the judging
 };
 
-void print_offline_responder(const AnsweredSession& session);
+/// @param tables also the counts of each pair of answers
+void print_offline_responder(const AnsweredSession& session, bool tables);
+
+/// @param tables every mass and all cues; else the lightest and the heaviest cube with three cues
+void print_paths(const std::vector<PathDifference>& differences, bool tables);
+
+/// Outcomes and JNDs, logged and of the responder.
+void print_rerun(const OtherResponder& other);
 
 /// Intervals of agreement: exact (Clopper and Pearson), 95 %. Of d' and criterion: 1.96 standard
 /// errors. Missing values are null.
