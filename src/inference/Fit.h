@@ -65,14 +65,16 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options);
 /// Minimum number of trials: chi-square intervals do not hold for fewer.
 inline constexpr double least_trials_to_fit = 10;
 
-// What the two have in common.
-/// How far from the reference levels go. As absolute masses, where 0 is no reference, they can't go
-/// farther than from the lightest to the heaviest.
+// Shared by fit_indecision and fit_psychometric.
+
+/// The largest level, in grams from the reference. Levels that are absolute masses have no
+/// reference at 0; for them it is the range from the lightest to the heaviest.
 struct LevelReach {
   double level_g = 0;
   bool is_range = false;  ///< otherwise the largest level
 };
 LevelReach reach_of(const AnswersByLevel& answers);
+
 /// A sensitivity's 95 % interval, per gram; an end at infinity is none.
 struct SensitivityRange {
   std::optional<double> low{}, high{};
@@ -80,23 +82,31 @@ struct SensitivityRange {
 
   bool flat() const { return !low && !high && !separated; }  ///< none is ruled out
 };
-/// Why a sensitivity gives no threshold, in the words that heft fit and the report share; empty: it
-/// does.
+
+/// Why a sensitivity gives no threshold, as heft fit and the report say it; empty: it gives one.
 std::string why_no_threshold(const SensitivityRange& range, const LevelReach& reach);
-/// How often each answer was given, at any level.
+
+/// Number of each answer, over all levels.
 std::array<double, 3> totals(const AnswersByLevel& answers);
+
+/// Sum of all answers.
 double trials_in(const AnswersByLevel& answers);
-/// How far from 0 levels in grams go; 0 of none.
+
+/// The largest absolute level in grams; 0 without levels.
 double largest_level_of(const AnswersByLevel& answers);
-/// What no model could do with: "there are no trials", "there is one level"... Empty: nothing.
+
+/// Why no model can be fitted: "there are no trials", "there is one level"... Empty: one can.
 std::string too_little(const AnswersByLevel& answers);
-/// The same of choices (reference, none, comparison; or left, none, right).
+
+/// As too_little, for choices (reference, none, comparison; or left, none, right).
 std::string too_little_chosen(const AnswersByLevel& answers);
-/// What the likelihood comes to where the curves are ever steeper: a cut between two neighboring
-/// answers is a step between two levels, or at one, and there any share is within reach.
-/// @param least of each answer at any level, by guesses and lapses; as many as there are answers
+
+/// The limit of the log likelihood as the curves become infinitely steep: the boundary between two
+/// neighboring answers becomes a step between two levels, or at one level, where any share fits.
+/// @param least smallest probability of each answer, by guesses and lapses
 double log_likelihood_of_steps(const AnswersByLevel& answers, std::span<const double> least);
-/// n log p, and its derivatives by p; where p is 0 by the digits, almost.
+
+/// n log p and its first and second derivative by p. p counts as at least 1e-300.
 struct LogShare {
   double value, slope, bend;
 };

@@ -29,6 +29,7 @@ OnGrid sum_of(std::span<const OnGrid> people, std::span<const double> times);
 /// The place where a sum is highest, by the parabola through the three highest.
 double top_of(const OnGrid& sum);
 
+/// A value between grid points, interpolated. @param place index on the grid, from 0
 double between_places(const OnGrid& values, double place);
 
 /// How sensitivities are spread between people: their logarithm is normal.

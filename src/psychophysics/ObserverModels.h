@@ -71,6 +71,7 @@ struct IndecisionParameters {
 struct IndecisionShares {
   double reference = 0, none = 0, comparison = 0;
 };
+/// @param level comparison minus reference
 IndecisionShares indecision_shares(const IndecisionParameters& parameters, double level);
 
 /// Trials with a difference (signal) and without (noise), and "different" responses in each.
@@ -90,6 +91,7 @@ struct Detection {
 /// @return none without signal trials or without noise trials
 std::optional<Detection> detection(const DetectionCounts& counts);
 
+/// Density of N(0, 1).
 double normal_density(double z);
 
 /// Accurate in both tails.

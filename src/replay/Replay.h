@@ -1,8 +1,8 @@
-// Replay: a log is folded and simulated again. Verification checks digests and schema, then
-// compares every projected row with the fold of the events, and every frame with the simulation of
-// its effector pose. It reports the first difference.
+// Verifies a log against its events (replay), and displays a logged session: its frames as they
+// were shown, optionally with the clone of a what-if simulation beside the logged one.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -10,6 +10,8 @@
 
 #include "apparatus/LoggedSession.h"
 #include "record/reader/LogReader.h"
+#include "replay/AttemptReplay.h"
+#include "view/ArView.h"
 
 namespace heft {
 
@@ -38,5 +40,16 @@ Verification verify_session(const LogReader& reader, std::int64_t session_id,
 
 /// Everything except the simulation of frames.
 Verification verify_rows(const LogReader& reader, const LoggedSession& session);
+
+struct ReplayViewOptions {
+  const Protocol* what_if = nullptr;  ///< whose clone is drawn, too; null: none
+  bool in_real_time = false;          ///< at the frames' times; otherwise as fast as possible
+  const std::atomic<bool>* stop = nullptr;
+};
+
+/// Presents every logged frame of the session's attempts.
+/// @return number of frames
+int show_session(const LogReader& reader, const LoggedSession& session, ArView& view,
+                 const ReplayViewOptions& showing);
 
 }  // namespace heft

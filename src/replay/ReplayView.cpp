@@ -1,9 +1,8 @@
-#include "replay/ReplayView.h"
-
 #include <algorithm>
 
 #include "base/Clock.h"
 #include "replay/AttemptReplay.h"
+#include "replay/Replay.h"
 
 namespace heft {
 

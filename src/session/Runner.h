@@ -8,7 +8,7 @@
 #include "responders/Responder.h"
 #include "session/Console.h"
 #include "session/Pages.h"
-#include "session/RunnerOptions.h"
+#include "session/SessionControl.h"
 #include "view/ArView.h"
 
 namespace heft {

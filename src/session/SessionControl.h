@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,10 +11,30 @@
 #include "experiment/ScreenTexts.h"
 #include "session/Console.h"
 #include "session/Journal.h"
-#include "session/RunnerOptions.h"
 #include "view/ArView.h"
 
 namespace heft {
+
+class Engine;
+class EventOutlet;
+
+/// How a session is run: callbacks, console and event outlet.
+struct RunnerOptions {
+  bool keep_frames = true;
+  /// Called after every event, for a progress bar.
+  std::function<void(const Engine&)> progress = [](const Engine&) {};
+  /// Set by a signal handler to stop at the next picture; the session can be resumed.
+  const std::atomic<bool>* stop = nullptr;
+  /// Prints messages where there is no console.
+  std::function<void(const std::string&)> print = [](const std::string&) {};
+  Console* console = nullptr;  ///< the experimenter's; only on a wall clock
+  /// Other recorders, informed of each event once it is on disk; null: none.
+  EventOutlet* events = nullptr;
+  /// Set to the session's number once it is logged; null: not needed.
+  std::int64_t* begun = nullptr;
+  /// Continue after a failed check if there is no experimenter to ask.
+  bool go_on_unchecked = false;
+};
 
 /// The participant's screen. Everything is presented through it, so that each text is logged with
 /// its language, hash and time, and the experimenter's monitor knows the page.

@@ -1,7 +1,7 @@
 // Logged frames shown again.
 #include <gmock/gmock.h>
 
-#include "replay/ReplayView.h"
+#include "replay/Replay.h"
 #include "replay/StoredSession.h"
 #include "view/scene/SceneDrawing.h"
 

@@ -96,6 +96,7 @@ PictureCounts count_pictures(const std::vector<LoggedEvent>& events);
 /// Those that are reported in words.
 std::vector<Noted> noted_in(const std::vector<LoggedEvent>& events);
 
+/// The events of a session that EventCounts counts.
 EventCounts count_events(const std::vector<LoggedEvent>& events);
 
 /// The rows of one session as the log holds them.

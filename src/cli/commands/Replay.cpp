@@ -20,7 +20,6 @@
 #include "physics/auto/Choice.h"
 #include "protocol/readers/Files.h"
 #include "record/reader/LogReader.h"
-#include "replay/ReplayView.h"
 #include "session/Session.h"
 
 namespace heft::cli {

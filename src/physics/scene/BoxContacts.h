@@ -16,6 +16,7 @@ struct Box {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: its x, y and z in the world
 };
 
+/// @param size_m edge lengths along the box's own axes
 Box box_at(const Pose& pose, const Eigen::Vector3d& size_m);
 
 struct ContactPoint {

@@ -42,6 +42,7 @@ struct ProjectedPoint {
   Eigen::Vector2d pixel;
   Eigen::Matrix<double, 2, 3> pixel_by_point;
 };
+/// As project(). @param point_m in the camera frame, z > 0
 ProjectedPoint project_with_derivative(const Intrinsics& camera, const Eigen::Vector3d& point_m);
 
 /// Pixel of a ray (x/z, y/z), with distortion.

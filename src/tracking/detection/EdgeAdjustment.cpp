@@ -3,8 +3,8 @@
 
 #include "base/Pose.h"
 #include "base/math/LevenbergMarquardt.h"
+#include "tracking/detection/FitMath.h"
 #include "tracking/pose/BodyPose.h"
-#include "tracking/pose/SymmetricSum.h"
 
 namespace heft {
 

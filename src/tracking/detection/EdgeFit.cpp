@@ -6,9 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "tracking/detection/NormalTable.h"
+#include "tracking/detection/FitMath.h"
 #include "tracking/detection/ToneCurve.h"
-#include "tracking/pose/SymmetricSum.h"
 
 namespace heft {
 

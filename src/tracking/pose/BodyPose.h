@@ -38,6 +38,8 @@ struct TagObservation {
   bool covered() const;  ///< whether an edge carries no information
 };
 
+/// A measured tag as an observation for the pose search.
+/// @param bright_outside whether the detected border is black inside white
 TagObservation observe(const Intrinsics& camera, const Tag& tag, const MeasuredTag& measured,
                        bool bright_outside);
 

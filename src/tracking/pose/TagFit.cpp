@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tracking/pose/SymmetricSum.h"
+#include "tracking/detection/FitMath.h"
 
 namespace heft {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/PoseTypes.h"
-#include "tracking/detection/NormalTable.h"
+#include "tracking/detection/FitMath.h"
 
 namespace heft {
 

@@ -1,11 +1,10 @@
-#include "tracking/sheets/EffectorNet.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/Error.h"
+#include "tracking/sheets/Sheet.h"
 
 namespace heft {
 

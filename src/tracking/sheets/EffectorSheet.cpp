@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "base/Error.h"
-#include "tracking/sheets/EffectorNet.h"
 #include "tracking/sheets/PdfSheet.h"
 #include "tracking/sheets/Sheet.h"
 

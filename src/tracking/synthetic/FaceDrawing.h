@@ -76,6 +76,7 @@ bool is_seen(const PrintedFace& face, const SeenBody& body);
 std::optional<PixelBox> extent_of(const std::vector<PrintedFace>& faces, const SeenBody& body,
                                   const Lens& lens);
 
+/// Adds the light of a face to the pixels that it covers. @param raster in the camera's pixels
 void draw_face(const PrintedFace& face, const SeenBody& body, const Lens& lens, AreaRaster& raster);
 
 /// @throws Error as printed_board

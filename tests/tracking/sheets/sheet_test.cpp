@@ -14,7 +14,6 @@
 #include "tracking/Scenes.h"
 #include "tracking/camera/ImageFile.h"
 #include "tracking/detection/TagDetector.h"
-#include "tracking/sheets/EffectorNet.h"
 
 namespace heft {
 namespace {
