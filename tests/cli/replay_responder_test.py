@@ -161,7 +161,7 @@ class ReplayResponder(SessionTest):
     def test_trials_without_frames_are_told(self):
         self.run_heft("simulate", self.protocol, "--participants", 1, "--seed", 3, "--db", self.db)
         said = self.run_heft("replay", "--db", self.db, "--responder", "coin").stdout
-        self.assertIn("no frames", said)
+        self.assertIn("without frames", said)
         session = self.judged("--responder", "coin")[0]
         self.assertEqual(session["n"], 0)
         self.assertEqual(session["n_without_frames"],
@@ -180,14 +180,15 @@ class ReplayResponder(SessionTest):
         for words in (["--rerun"], ["--json"], ["--responder", "coin", "--rerun", "--json"],
                       ["--responder", "coin", "--set", "physics.friction=0.5"],
                       ["--responder", "coin", "--view", "video:v.avi"], ["--view", "headless"],
-                      ["--view", "video"], ["--responder", "human"], ["--responder", "scripted"]):
+                      ["--view", "video"], ["--responder", "human"], ["--responder", "scripted"],
+                      ["--tables"], ["--responder", "coin", "--rerun", "--tables"]):
             self.run_heft("replay", "--db", self.db, *words, expect=2, cwd=self.folder)
         self.assertEqual([p.name for p in self.folder.iterdir() if "v.avi" in p.name], [])
 
     def test_a_what_if_tells_lags_and_paths(self):
         self.session(self.db)
         said = self.run_heft("replay", "--db", self.db, "--set",
-                             "coupling.stiffness_n_per_m=100").stdout
+                             "coupling.stiffness_n_per_m=100", "--tables").stdout
         self.assertIn("clone RMS", said)
         row = next(line.split() for line in said.splitlines()
                    if line.split()[:3] == ["sorting", "C2", "200"])
@@ -195,6 +196,18 @@ class ReplayResponder(SessionTest):
         lag_mm, would_be_mm = numbers[2:4]
         self.assertGreater(lag_mm, 30)
         self.assertAlmostEqual(would_be_mm, lag_mm / 2, delta=0.15 * lag_mm)
+
+    def test_one_session_fits_a_screen(self):
+        protocol = PROTOCOLS / "paper.toml"
+        self.run_heft("simulate", protocol, "--participants", 1, "--seed", 3, "--frames", "--db",
+                      self.db)
+        for words in ["--set", "coupling.stiffness_n_per_m=100"], ["--responder", "coin"]:
+            short = self.run_heft("replay", "--db", self.db, *words).stdout
+            every = self.run_heft("replay", "--db", self.db, *words, "--tables").stdout
+            self.assertIn("--tables", short)
+            self.assertLessEqual(len(short.splitlines()), 24)
+            self.assertLessEqual(max(map(len, short.splitlines())), 80)
+            self.assertGreater(len(every.splitlines()), 40)
 
     def test_a_video_holds_every_frame(self):
         self.session(self.db)

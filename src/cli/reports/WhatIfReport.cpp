@@ -20,7 +20,7 @@ void print_positions(const std::vector<PathDifference>& differences) {
 }
 
 std::string both(const std::string& logged, const std::string& would_be) {
-  return fmt::format("{:>7} > {:<7}", logged, would_be);
+  return fmt::format("{:>6} > {:<6}", logged, would_be);
 }
 
 std::string millimeters(double logged_m, double would_be_m) {
@@ -70,12 +70,13 @@ constexpr std::array cue_columns{
 // Largest lag of each push, mean over pushes; path of each pushed cube, mean over cubes.
 void print_visible_cues(const std::vector<PathDifference>& differences, bool all) {
   print(
-      "  visible cues, logged > recomputed: the clone's largest lag in a push, in grams if\n"
-      "  it depends on mass, and how far from its start a pushed cube ended (means)\n"
+      "  visible cues, logged > recomputed: the clone's largest lag in a push, also in\n"
+      "  grams if it depends on mass, and how far from its start a pushed cube ended\n"
+      "  (means)\n"
       "  {:<13} {:<4} {:>7}",
       "task", "", "cube g");
   for (const CueColumn& column : cue_columns)
-    if (all || column.in_short) print(" {:^17}", column.title);
+    if (all || column.in_short) print(" {:^15}", column.title);
   print("\n");
   for (const PathDifference& trials : differences)
     for (const CueDifference& cubes : trials.noticed) {
