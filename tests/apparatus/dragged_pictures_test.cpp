@@ -32,7 +32,7 @@ class Dragged : public testing::Test {
   std::unique_ptr<Responder> hand = responder_named("simulated").make({});
   SessionClock clock = SessionClock::wall_from(0);
   std::shared_ptr<DraggedEffector> effector =
-      std::make_shared<DraggedEffector>(upright_pose({0, -0.12, 0.025}, 1.57));
+      std::make_shared<DraggedEffector>(DraggedEffector{upright_pose({0, -0.12, 0.025}, 1.57)});
 };
 
 TEST_F(Dragged, HasThePoseThatItWasDraggedToAtThatTime) {

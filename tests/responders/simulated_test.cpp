@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "FakeTrial.h"
 
@@ -76,10 +77,8 @@ TEST(Simulated, InC1PermutingTheMassesLeavesEveryAnswerUnchanged) {
     first_answers.push_back(said(reference).front());
   }
   EXPECT_EQ(n_trials, 360);
-  std::ranges::sort(first_answers);
-  const auto repeated = std::ranges::unique(first_answers);
-  first_answers.erase(repeated.begin(), repeated.end());
-  EXPECT_GT(first_answers.size(), 2u) << "answers that are all alike would prove nothing";
+  const std::set<std::string> different(first_answers.begin(), first_answers.end());
+  EXPECT_GT(different.size(), 2u) << "answers that are all alike would prove nothing";
 }
 
 TEST(Simulated, InC2PermutingTheMassesChangesAnswers) {

@@ -21,7 +21,7 @@ class Drag : public testing::Test {
   }
 
   std::shared_ptr<DraggedEffector> effector =
-      std::make_shared<DraggedEffector>(upright_pose({0, -0.1, 0.025}, M_PI / 2));
+      std::make_shared<DraggedEffector>(DraggedEffector{upright_pose({0, -0.1, 0.025}, M_PI / 2)});
   EffectorDrag drag{setup_with(effector)};
 };
 

@@ -96,7 +96,8 @@ TEST(ToneLearning, ManyPicturesOfAnSrgbCameraBendNothing) {
   double sum_mm = 0;
   constexpr int n = 40, learning = 10;
   for (int i = 0; i < n; ++i) {
-    const Image image = camera.picture([&](double) { return grip; }, i / 30.0, i);
+    const Image image =
+        camera.picture([&](double) { return grip; }, i / 30.0, static_cast<std::uint64_t>(i));
     const auto with = learns.track(image, i / 30.0).board_from_effector;
     const auto without = takes_srgb.track(image, i / 30.0).board_from_effector;
     ASSERT_TRUE(with && without);
