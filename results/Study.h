@@ -3,9 +3,9 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <cstdint>
+#include <ctime>
 #include <fstream>
 #include <span>
 #include <string>

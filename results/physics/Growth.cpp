@@ -25,8 +25,9 @@ BenchScene scene_of(Standing standing, int n_cubes) {
   for (int i = 0; i < n_cubes; ++i) {
     Cube cube;
     cube.mass_kg = 0.02;
-    cube.position_m.x() = pitch_m * (i / n_abreast);
-    cube.position_m.y() = pitch_m * (i % n_abreast);
+    const int column = i / n_abreast, place = i % n_abreast;
+    cube.position_m.x() = pitch_m * column;
+    cube.position_m.y() = pitch_m * place;
     scene.scene.cubes.push_back(cube);
   }
   return scene;

@@ -289,7 +289,8 @@ void add_fish_lines(const CommandDescription& command, const std::string& progra
                          fish_quoted(fmt::format("{}; and not __fish_seen_subcommand_from {}", seen,
                                                  commands_in_a_row(command))),
                          name, fish_quoted(inner.summary));
-    add_fish_lines(inner, program, seen + "; and __fish_seen_subcommand_from " + name, lines);
+    add_fish_lines(inner, program,
+                   fmt::format("{}; and __fish_seen_subcommand_from {}", seen, name), lines);
   }
 }
 }  // namespace

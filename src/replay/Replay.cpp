@@ -88,7 +88,8 @@ class Verifier {
     for (std::size_t i = 0; i < folded.columns.size(); ++i) {
       const auto& [column, value] = folded.columns[i];
       const std::string& logged_value = logged.columns[i].value;
-      if (value != logged_value) differ(folded, key + ", " + column, logged_value, value);
+      if (value != logged_value)
+        differ(folded, fmt::format("{}, {}", key, column), logged_value, value);
     }
   }
 

@@ -88,7 +88,7 @@ void add_stiffness_decades(Scenes& scenes) {
 }
 
 void add_turns(Scenes& scenes) {
-  const auto soft = [](Cube cube) {
+  const auto soft = [](const Cube& cube) {
     Scene scene = scene_of({cube});
     scene.contact_compliance_m_per_n = 1e-4;
     return scene;

@@ -48,8 +48,9 @@ class FaultFilm {
       const Moving path = moving(scene_.speed_m_s, number);
       for (const TrackingMethod& method : methods_) method.reset();
       const int last = scene_.speed_m_s > 0 ? run_up + measured_in_motion : 1;
+      const int middle = last / 2;
       for (int picture = 0; picture < last; ++picture)
-        add_picture(path, (picture - last / 2) / film_rate_hz,
+        add_picture(path, (picture - middle) / film_rate_hz,
                     8 * number + static_cast<std::uint64_t>(picture),
                     i >= n_first && (last == 1 || picture >= run_up));
     }

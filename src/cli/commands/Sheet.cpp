@@ -35,7 +35,7 @@ void add_body(Command& sheet, const char* name, const char* summary, LoadBody lo
               WriteSheet write) {
   const std::string example =
       fmt::format("heft sheet {0} --{0} protocols/apparatus/{0}.toml --out {0}.pdf", name);
-  Command command = sheet.add_command(name, summary, {example.c_str()});
+  Command command = sheet.add_command(name, summary, {example});
   const auto options = std::make_shared<SheetOptions>();
   command.add_option(fmt::format("--{}", name), &options->body, fmt::format("{} file", name))
       .required();

@@ -36,7 +36,7 @@ std::optional<char> next_key() {
 // Discards the rest of a key's sequence after Esc: "[" or "O", parameters, and a letter or "~".
 void swallow_sequence() {
   const auto introducer = next_key();
-  if (introducer != '[' && introducer != 'O') return;
+  if (!introducer || (*introducer != '[' && *introducer != 'O')) return;
   for (auto key = next_key(); key && (*key < '@' || *key > '~');) key = next_key();
 }
 

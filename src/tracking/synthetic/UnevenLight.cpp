@@ -80,8 +80,9 @@ Levels UnevenLight::on(const Levels& even, const std::optional<Eigen::Vector2d>&
   for (int i = 0; i < n_pixels; ++i) {
     float gain = 1, more = 0;
     if (at_px) {
-      const auto right_px = static_cast<float>(i % width_ - at_px->x());
-      const auto down_px = static_cast<float>(i / width_ - at_px->y());
+      const int column = i % width_, row = i / width_;
+      const auto right_px = static_cast<float>(column - at_px->x());
+      const auto down_px = static_cast<float>(row - at_px->y());
       gain = lit(right_px, down_px);
       more = reflected(right_px, down_px);
     }
