@@ -30,8 +30,8 @@ class Screen:
              "-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24"],
             pass_fds=[write_end], stderr=subprocess.DEVNULL)
         os.close(write_end)
-        with os.fdopen(read_end) as told:
-            self.display = ":" + told.readline().strip()
+        with os.fdopen(read_end) as pipe:
+            self.display = ":" + pipe.readline().strip()
 
     def environment(self):
         return dict(os.environ, DISPLAY=self.display, LIBGL_ALWAYS_SOFTWARE="1")
@@ -178,13 +178,13 @@ class Window(unittest.TestCase):
         deadline = time.time() + 60
         while not person.page() and time.time() < deadline:
             time.sleep(0.1)
-        for told in (["the window is no longer full screen"],
-                     ["the window is no longer full screen", "the window is now full screen"]):
+        for messages in (["the window is no longer full screen"],
+                         ["the window is no longer full screen", "the window is now full screen"]):
             time.sleep(0.5)
             self.screen.key("F11")
-            while [text for text, in person.log(notes)] != told and time.time() < deadline:
+            while [text for text, in person.log(notes)] != messages and time.time() < deadline:
                 time.sleep(0.1)
-            self.assertEqual([text for text, in person.log(notes)], told)
+            self.assertEqual([text for text, in person.log(notes)], messages)
         self.program.terminate()
         self.program.wait(timeout=60)
 
@@ -229,8 +229,8 @@ class Window(unittest.TestCase):
                          [("mouse", "human")])
         replay = subprocess.run([HEFT, "replay", "--db", self.db], capture_output=True, text=True)
         self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
-        told = subprocess.run([HEFT, "analyse", "--db", self.db], capture_output=True, text=True)
-        self.assertIn("dragged on the screen", told.stdout + told.stderr)
+        analysed = subprocess.run([HEFT, "analyse", "--db", self.db], capture_output=True, text=True)
+        self.assertIn("dragged on the screen", analysed.stdout + analysed.stderr)
 
     def test_the_display_is_in_the_setup_and_the_clones_offset_in_degrees(self):
         measured = Path(self.folder.name) / "display.toml"
@@ -246,9 +246,9 @@ class Window(unittest.TestCase):
                                "mouseup", 1)
             self.screen.key("Return")
             time.sleep(1)
-        told, talk = calibrate.communicate(timeout=60)
+        printed, talk = calibrate.communicate(timeout=60)
         self.assertEqual(calibrate.returncode, 0, talk)
-        self.assertRegex(told, r"^1024 x 600 pixels are 153\.[0-9] x 90\.[0-9] mm, seen from 450 mm")
+        self.assertRegex(printed, r"^1024 x 600 pixels are 153\.[0-9] x 90\.[0-9] mm, seen from 450 mm")
         # A busy machine may fail the check of speed, and without a terminal that ends the session.
         person = self.start("--tracker", "synthetic", "--display-file", str(measured), "--windowed",
                             "--hand", "left", "--controls", "left", "--go-on")

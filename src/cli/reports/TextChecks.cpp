@@ -42,8 +42,8 @@ int line_with(char32_t code, const std::string& file) {
   return 0;
 }
 
-void tell_lacking(const std::vector<MissingCharacter>& lacking, const std::string& file,
-                  WordFaults& faults) {
+void add_missing_characters(const std::vector<MissingCharacter>& lacking, const std::string& file,
+                            WordFaults& faults) {
   if (!lacking.empty())
     faults.mistakes.push_back(
         {{file, line_with(lacking.front().code, file), 0}, missing_characters_message(lacking)});
@@ -73,17 +73,17 @@ SessionWords words_of(const Protocol& protocol, const std::string& protocol_file
   return words;
 }
 
-void tell_lacking(const SessionWords& words, WordFaults& faults) {
+void add_missing_characters(const SessionWords& words, WordFaults& faults) {
   std::map<std::string, std::vector<MissingCharacter>> by_file;
   for (const MissingCharacter& one : missing_characters(words.texts))
     by_file[words.file_of(one.text.substr(0, one.text.find('.')))].push_back(one);
-  for (const auto& [file, lacking] : by_file) tell_lacking(lacking, file, faults);
+  for (const auto& [file, lacking] : by_file) add_missing_characters(lacking, file, faults);
 }
 }  // namespace
 
 WordFaults faults_in_words(const ScreenTexts& texts, const std::string& file) {
   WordFaults faults;
-  tell_lacking(missing_characters(texts), file, faults);
+  add_missing_characters(missing_characters(texts), file, faults);
   for (const std::string& sentence : misfits(texts, 1))
     faults.cautions.push_back(on_smallest_screen(sentence));
   // With the largest letters, only what does not fit either in small ones.
@@ -101,7 +101,7 @@ WordFaults faults_in_words(const Protocol& protocol, const std::string& protocol
   const bool is_shipped = !language.ends_with(".toml");
   if (is_shipped && words.file_of_page.empty() && text_size == 1) return {};
   WordFaults faults;
-  tell_lacking(words, faults);
+  add_missing_characters(words, faults);
   for (const std::string& sentence : misfits(words.texts, text_size)) {
     const std::string page = sentence.substr(0, sentence.find(": "));
     faults.cautions.push_back(words.file_of(page) + ": " + on_smallest_screen(sentence));
