@@ -181,7 +181,8 @@ class ReplayResponder(SessionTest):
                       ["--responder", "coin", "--set", "physics.friction=0.5"],
                       ["--responder", "coin", "--view", "video:v.avi"], ["--view", "headless"],
                       ["--view", "video"], ["--responder", "human"], ["--responder", "scripted"],
-                      ["--tables"], ["--responder", "coin", "--rerun", "--tables"]):
+                      ["--tables"], ["--responder", "coin", "--rerun", "--tables"],
+                      ["--view", "video:v.avi", "--set", "physics.friction=0.5", "--tables"]):
             self.run_heft("replay", "--db", self.db, *words, expect=2, cwd=self.folder)
         self.assertEqual([p.name for p in self.folder.iterdir() if "v.avi" in p.name], [])
 

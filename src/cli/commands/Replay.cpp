@@ -36,6 +36,7 @@ struct ReplayOptions {
   bool rerun = false, json = false, tables = false;
   bool supposes() const { return simulator || !set.empty(); }
   bool judges() const { return responder && !rerun; }
+  bool compares_paths() const { return supposes() && !rerun && !view; }
 };
 
 // Tables of a protocol that affect the world of a logged hand.
@@ -63,9 +64,10 @@ void check(const ReplayOptions& options) {
         "a --responder judges the displayed frames, which --set and --simulator would change; add "
         "--rerun to run the trials again");
   if (!options.rerun) check_world(options.set);
-  if (options.tables &&
-      (options.rerun || options.json || !(options.responder || options.supposes())))
-    refuse("--tables requires --set, --simulator or a --responder, without --rerun and --json");
+  if (options.tables && (options.json || !(options.judges() || options.compares_paths())))
+    refuse(
+        "--tables requires --set, --simulator or a --responder, without --rerun, --view and "
+        "--json");
   if (options.json && !options.judges()) refuse("--json requires a --responder without --rerun");
   if (options.view && options.responder)
     refuse(

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -87,10 +86,9 @@ void print_head(const SessionFacts& facts) {
     print("study {}: {} of {}{}{}\n", escaped_line(place->study), place->number,
           place->participants, place->group.empty() ? "" : ", group " + escaped_line(place->group),
           place->order.empty() ? "" : ", order " + escaped_line(place->order));
-  print("{}: {} {} completed, {} void, {} minutes of session time; started {}\n",
-        name_of(facts.row.state), trials_text(facts),
-        std::lround(facts.planned_trials.value_or(facts.n_completed)) == 1 ? "trial" : "trials",
-        facts.n_void, minutes(facts.duration_s), header.started_utc);
+  print("{}; trials: {} completed, {} void; {} minutes of session time; started {}\n",
+        name_of(facts.row.state), trials_text(facts), facts.n_void, minutes(facts.duration_s),
+        header.started_utc);
 }
 
 void print_progress(const std::vector<TrialRow>& trials) {

@@ -31,8 +31,7 @@ struct Codecs {
 /// A picture or video of more pixels a frame is refused before it is decoded.
 inline constexpr double most_picture_pixels = 1e8;
 
-/// Loads the module on first use, with that limit unless OPENCV_IO_MAX_IMAGE_PIXELS sets another.
-/// Thread-safe.
+/// Loads the module on first use, with that limit. Thread-safe.
 /// @throws Error naming the module and the reason if it cannot be loaded
 const Codecs& codecs();
 

@@ -39,7 +39,7 @@ inline Normal normal_at(double x) {
   return {there.below + there.density * rest, there.density * (1 - x * rest)};
 }
 
-/// Adds the lower half of a b^T, which is symmetric.
+/// Adds the lower half of a b^T, which is symmetric: the most expensive part of least squares.
 template <int n>
 void add_lower(Eigen::Matrix<double, n, n>& sum, const Eigen::Matrix<double, n, 1>& a,
                const Eigen::Matrix<double, n, 1>& b) {

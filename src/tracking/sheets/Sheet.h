@@ -47,6 +47,9 @@ struct NetFace {
   std::vector<NetPoint> corners_m() const;
 };
 
+/// The net of the effector's box, seen from outside, tip upwards: the long faces side by side, the
+/// tip above the bottom face, the back below the top face or, for a chamfered box, below the
+/// bottom.
 struct EffectorNet {
   std::vector<NetFace> faces;                            ///< each of faces_of once
   std::vector<std::array<NetPoint, 2>> folds_m, cuts_m;  ///< lines
