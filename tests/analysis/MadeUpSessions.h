@@ -38,7 +38,8 @@ inline std::vector<CubeRow> cubes(const std::vector<double>& masses_g) {
   return rows;
 }
 
-inline Attempt& add_attempt(SessionData& data, Task task, std::vector<double> masses_g) {
+inline Attempt& add_attempt(SessionData& data, const Task& task,
+                            const std::vector<double>& masses_g) {
   Attempt attempt;
   attempt.trial.attempt_index = static_cast<int>(data.attempts.size()) + 1;
   attempt.trial.setup_index = 1;
@@ -50,7 +51,7 @@ inline Attempt& add_attempt(SessionData& data, Task task, std::vector<double> ma
   return data.attempts.back();
 }
 
-inline AnswerRow label(int slot, Label given) {
+inline AnswerRow label(int slot, const Label& given) {
   AnswerRow row;
   row.action = "label";
   row.slot = slot;
@@ -65,14 +66,16 @@ inline AnswerRow select(int slot) {
   return row;
 }
 
-inline Attempt& add_sorting(SessionData& data, const std::string& condition, Outcome outcome) {
+inline Attempt& add_sorting(SessionData& data, const std::string& condition,
+                            const Outcome& outcome) {
   Attempt& attempt = add_attempt(data, "sorting", {15, 200, 800});
   attempt.trial.plan.condition = condition;
   attempt.trial.outcome = outcome;
   return attempt;
 }
 
-inline void add_sortings(SessionData& data, const std::string& condition, Outcome outcome, int n) {
+inline void add_sortings(SessionData& data, const std::string& condition, const Outcome& outcome,
+                         int n) {
   for (int i = 0; i < n; ++i) add_sorting(data, condition, outcome);
 }
 

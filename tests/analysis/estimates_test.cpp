@@ -14,12 +14,11 @@ namespace {
 
 using namespace made_up;
 using nlohmann::json;
-using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
 // Two people who sorted and compared in each condition.
-Summary study_of(const std::vector<std::string>& conditions, std::vector<double> masses_g,
+Summary study_of(const std::vector<std::string>& conditions, const std::vector<double>& masses_g,
                  const std::map<std::string, published::Condition>& of_paper = {}) {
   std::vector<SessionData> sessions;
   for (int id : {1, 2}) {

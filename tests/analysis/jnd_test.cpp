@@ -120,7 +120,7 @@ TEST(Jnd, CountsTrialsLimitsAndBounds) {
   EXPECT_EQ(jnd.n_ceiling_staircases, 1);
 }
 
-SessionData with_jnds(std::int64_t id, std::vector<std::pair<double, Censored>> jnds) {
+SessionData with_jnds(std::int64_t id, const std::vector<std::pair<double, Censored>>& jnds) {
   SessionData data = session(id, std::to_string(id));
   for (const auto& [jnd_g, censored] : jnds) {
     add_staircase(data, "s" + std::to_string(data.estimates.size()), 15, jnd_g);

@@ -2,8 +2,8 @@
 #include "analysis/report/Report.h"
 
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>

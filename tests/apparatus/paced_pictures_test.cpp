@@ -13,7 +13,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::DoubleNear;
-using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::Ge;
 using ::testing::Le;

@@ -24,7 +24,7 @@ using testing::small_plan;
 
 Event action(double t_s, ActionKind kind, std::optional<int> slot = {},
              std::optional<Label> label = {}) {
-  return {t_s, Action{kind, slot, label}};
+  return {t_s, Action{std::move(kind), slot, std::move(label)}};
 }
 
 // Drives an engine as the runner does, one event per second.
@@ -34,11 +34,11 @@ struct Session {
 
   Changes does(EventPayload what) { return engine.apply({++t_s, std::move(what)}); }
   Changes acts(ActionKind kind, std::optional<int> slot = {}, std::optional<Label> label = {}) {
-    return engine.apply(action(++t_s, kind, slot, label));
+    return engine.apply(action(++t_s, std::move(kind), slot, std::move(label)));
   }
   std::string refusal(ActionKind kind, std::optional<int> slot = {},
                       std::optional<Label> label = {}) {
-    return engine.admit(action(t_s + 1, kind, slot, label)).refusal;
+    return engine.admit(action(t_s + 1, std::move(kind), slot, std::move(label))).refusal;
   }
   TrialPlan start() {
     does(TrialStarted{});

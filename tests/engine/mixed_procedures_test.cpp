@@ -73,7 +73,7 @@ Comparison::Block any_block() {
 
 /// A session and its results as text.
 struct Folded {
-  Folded(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed) : engine(plan, seed) {}
+  Folded(const std::shared_ptr<const SessionPlan>& plan, std::uint64_t seed) : engine(plan, seed) {}
 
   /// Whether the event is accepted.
   bool does(const Event& event) {

@@ -218,8 +218,9 @@ TEST(PsychometricFit, OfVeryManyLevelsIsThatOfTheSameAnswersOnFewer) {
   for (int i = 0; i < 6000; ++i) {
     const double level = i % 60 - 30,
                  share = standard_curve(PsychometricShape::cumulative_normal, level / 10).below;
-    const bool positive = i / 60 < 100 * share;
-    many[level + 1e-9 * (i / 60)][positive ? 1 : 0] += 1;
+    const int person = i / 60;
+    const bool positive = person < 100 * share;
+    many[level + 1e-9 * person][positive ? 1 : 0] += 1;
     few[level][positive ? 1 : 0] += 1;
   }
   const Fit fine = fit_psychometric(many, {}), coarse = fit_psychometric(few, {});

@@ -184,8 +184,8 @@ class DriveTargets : public testing::Test {
     for (const Pose& target : calls.targets) x_m.push_back(target.position_m.x());
     return x_m;
   }
-  static auto near(std::vector<double> values) {
-    return testing::Pointwise(testing::DoubleNear(1e-12), std::move(values));
+  static auto near(const std::vector<double>& values) {
+    return testing::Pointwise(testing::DoubleNear(1e-12), values);
   }
   const std::vector<TargetSample> samples{seen(0, -0.50), seen(0.1, -0.48), seen(0.2, -0.44)};
 };

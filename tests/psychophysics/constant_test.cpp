@@ -14,8 +14,6 @@
 namespace heft {
 namespace {
 
-using testing::ElementsAre;
-
 ConstantConfig any_constant() {
   ConstantConfig config;
   const auto levels =

@@ -1,11 +1,11 @@
 // Runs a function in a child process, to kill it or to run it without root's rights.
 #pragma once
 
-#include <signal.h>
 #include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -17,14 +17,14 @@ class Child {
  public:
   /// Runs work(fd) in a child; its output to fd can be read here.
   template <typename Work>
-  explicit Child(Work&& work) {
+  explicit Child(const Work& work) {
     int ends[2];
     if (::pipe(ends) != 0) throw std::runtime_error("no pipe");
     process_ = ::fork();
     if (process_ < 0) throw std::runtime_error("no child process");
     if (process_ == 0) {
       ::close(ends[0]);
-      std::forward<Work>(work)(ends[1]);
+      work(ends[1]);
       ::_exit(0);
     }
     ::close(ends[1]);

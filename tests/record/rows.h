@@ -148,7 +148,7 @@ inline Event event(double t_s, EventKind kind, std::string detail = "") {
 
 inline Event action(double t_s, ActionKind kind, std::optional<int> slot = std::nullopt,
                     std::optional<Label> label = std::nullopt) {
-  return {t_s, Action{kind, slot, label}};
+  return {t_s, Action{std::move(kind), slot, std::move(label)}};
 }
 
 inline AnswerRow answer_of(int attempt_index, const Event& event) {

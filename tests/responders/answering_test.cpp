@@ -13,7 +13,7 @@ const Label lightest("lightest"), intermediate("intermediate"), heaviest("heavie
 
 class AnsweringTest : public testing::Test {
  protected:
-  explicit AnsweringTest(Task task = "sorting", int n_cubes = 3)
+  explicit AnsweringTest(const Task& task = "sorting", int n_cubes = 3)
       : answering_(3, {1, 1, task, fake::row_of(n_cubes)}, 0.7) {
     screen_.screen = Screen::trial;
     screen_.task = task;

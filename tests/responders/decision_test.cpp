@@ -22,7 +22,7 @@ ResponderParameters certain() {
 
 Answer decide(const ResponderParameters& parameters, Task task, std::vector<double> percepts_mm,
               std::vector<int> wrong_slots = {}, int trial = 1) {
-  return Decision(parameters, 7, {trial, 1, task, {}}).decide(percepts_mm, wrong_slots);
+  return Decision(parameters, 7, {trial, 1, std::move(task), {}}).decide(percepts_mm, wrong_slots);
 }
 
 TEST(Decision, TheCriterionGrowsWithTheLargerPercept) {

@@ -16,7 +16,7 @@ using testing::ElementsAre;
 
 TrialSetup setup_of(Task task, std::vector<double> masses_g, int trial_number = 1) {
   TrialSetup setup;
-  setup.task = task;
+  setup.task = std::move(task);
   setup.masses_g = std::move(masses_g);
   setup.trial_number = trial_number;
   return setup;
@@ -82,7 +82,7 @@ TEST(Coin, FallsOnItsSideWithItsProbability) {
 }
 
 TEST(CriterionOnly, DependsOnItsCriterionAndOnNoCube) {
-  const auto share_different = [](double criterion_mm, std::vector<double> masses_g) {
+  const auto share_different = [](double criterion_mm, const std::vector<double>& masses_g) {
     const auto responder = make("criterion_only", 2,
                                 {{"criterion_mm", criterion_mm, {}},
                                  {"participant_spread", 0.0, {}},

@@ -16,7 +16,7 @@ using fake::run_trial;
 using fake::said;
 using fake::TrialSetup;
 
-TrialSetup setup_of(Task task, const std::string& condition, int trial_number) {
+TrialSetup setup_of(const Task& task, const std::string& condition, int trial_number) {
   TrialSetup setup;
   setup.task = task;
   setup.condition = condition;

@@ -51,7 +51,7 @@ inline Touch touch(TouchKind kind) {
 
 inline Touch touch(ActionKind kind, std::optional<int> slot = {}, std::optional<Label> label = {}) {
   Touch made;
-  made.action = {kind, slot, label};
+  made.action = {std::move(kind), slot, std::move(label)};
   return made;
 }
 

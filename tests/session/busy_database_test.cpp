@@ -25,7 +25,6 @@ using testing::events_of;
 using ::testing::HasSubstr;
 using testing::made_up_s;
 using testing::MadeUpConsole;
-using ::testing::Not;
 using testing::touch;
 
 // Keeps what it is given while the database is locked, as SessionLog does.

@@ -28,7 +28,6 @@ using testing::pages_of;
 using testing::patient;
 using testing::quick_protocol;
 using testing::shared;
-using testing::small_protocol;
 using testing::touch;
 
 std::unique_ptr<Responder> some_hand() {

@@ -104,7 +104,7 @@ struct Bench {
         responder(std::move(who)),
         pictures(*responder, std::move(change)) {}
 
-  RunEnd run(RunnerOptions options = {}) {
+  RunEnd run(const RunnerOptions& options = {}) {
     return Runner({*protocol, engine, sink, pictures, *responder, view, clock}, options).run();
   }
   std::vector<Event> events(EventKind kind) const { return testing::events_of(sink, kind); }

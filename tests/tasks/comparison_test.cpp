@@ -157,7 +157,7 @@ TEST(ComparisonKeys, CatchTrialsAreFixedOrRandom) {
 }
 
 TEST(ComparisonKeys, ExpectedTrialsAddOverReferences) {
-  const auto block_of = [](std::vector<double> starts_g) {
+  const auto block_of = [](const std::vector<double>& starts_g) {
     Comparison::Block block;
     for (const double start_g : starts_g)
       block.staircases.push_back(

@@ -10,7 +10,6 @@
 namespace heft {
 namespace {
 using ::testing::Contains;
-using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 

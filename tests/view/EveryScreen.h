@@ -48,10 +48,10 @@ inline ScreenState sorting_state(int n_slots) {
   return state;
 }
 
-inline ScreenState trial_state(Task task) {
+inline ScreenState trial_state(const Task& task) {
   ScreenState state;
   state.screen = Screen::trial;
-  state.task = task;
+  state.task = std::move(task);
   state.n_slots = task == "sorting" ? 3 : 2;
   if (task == "sorting") labels_on(state).assign(3, std::nullopt);
   return state;

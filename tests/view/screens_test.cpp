@@ -526,7 +526,7 @@ TEST(Typeface, CharacterWithoutFontIsRefused) {
   ScreenTexts texts = shipped_texts("en");
   texts.pages["welcome"]["title"] = "\U00010FFF";  // unassigned
   try {
-    Typeface{texts};
+    const Typeface typeface(texts);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.exit_code(), ExitCode::invalid_file);

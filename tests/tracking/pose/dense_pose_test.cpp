@@ -162,7 +162,7 @@ double smeared_rms_mm(bool inner_edges) {
   double sum_mm2 = 0;
   for (int i = 0; i < n_directions; ++i) {
     const double yaw = 2 * M_PI * i / n_directions;
-    const Pose start = grips[static_cast<std::size_t>(i) % grips.size()];
+    const Pose& start = grips[static_cast<std::size_t>(i) % grips.size()];
     const auto path = [&](double t_s) {
       Pose pose = start;
       pose.position_m +=

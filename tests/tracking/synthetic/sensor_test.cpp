@@ -17,8 +17,10 @@ namespace {
 LightPicture ramp() {
   LightPicture picture(fine_of({0, 0, 128, 128}));
   for (int y = 0; y < picture.box.y1; ++y)
-    for (int x = 0; x < picture.box.x1; ++x)
-      picture.row(y)[x].setConstant(static_cast<float>(y / fineness * 128 + x / fineness) / 16383);
+    for (int x = 0; x < picture.box.x1; ++x) {
+      const int step = y / fineness * 128 + x / fineness;
+      picture.row(y)[x].setConstant(static_cast<float>(step) / 16383);
+    }
   return picture;
 }
 
