@@ -1,5 +1,6 @@
 #include "record/export/ExportSource.h"
 
+#include <SQLiteCpp/Backup.h>
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
@@ -10,6 +11,7 @@
 #include "base/Error.h"
 #include "base/files/TextFile.h"
 #include "record/export/Export.h"
+#include "record/export/FreshIds.h"
 #include "record/reader/ReadOnlyDatabase.h"
 #include "record/writer/Failures.h"
 #include "record/writer/LogFile.h"
@@ -50,6 +52,15 @@ void make_private(ExportCell& cell, Privacy privacy, const std::string& key) {
   if (privacy == Privacy::year) cell.text.resize(std::min<std::size_t>(cell.text.size(), 4));
   if (privacy == Privacy::number && !number_in(cell.text)) cell = {};
 }
+
+std::unique_ptr<SQLite::Database> renumbered_copy(SQLite::Database& log) {
+  // A temporary file without a name.
+  auto copy = std::make_unique<SQLite::Database>("", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  SQLite::Backup(*copy, log).executeStep();
+  distrust(*copy);
+  draw_fresh_ids(*copy);
+  return copy;
+}
 }  // namespace
 
 ExportSource::ExportSource(const std::vector<std::string>& logs, std::optional<std::string> key)
@@ -61,6 +72,7 @@ ExportSource::ExportSource(const std::vector<std::string>& logs, std::optional<s
       throw Error(fmt::format("{} is given twice", name), ExitCode::usage);
     OpenLog log{name, open_for_reading(name)};
     if (!holds_log(*log.database, name)) continue;
+    if (key_) log.database = renumbered_copy(*log.database);
     log.database->exec("BEGIN");  // all reads see one snapshot
     participants.add(*log.database);
     if (key_) log.name = fmt::format("log{}", logs_.size() + 1);

@@ -48,7 +48,8 @@ Privacy privacy_of(const std::string& name) {
       {"settings", Privacy::free_text},    {"record_camera", Privacy::free_text},
       {"camera_file", Privacy::free_text}, {"board_file", Privacy::free_text},
       {"texts_file", Privacy::free_text},  {"effector_file", Privacy::free_text},
-      {"language", Privacy::kind},         {"display_file", Privacy::free_text}};
+      {"language", Privacy::kind},         {"display_file", Privacy::free_text},
+      {"operator", Privacy::free_text},    {"seed", Privacy::free_text}};
   const auto found = by_name.find(name);
   return found == by_name.end() ? Privacy::open : found->second;
 }
@@ -265,9 +266,10 @@ std::vector<ExportTable> export_tables(const ParticipantColumns& participants) {
                          {session_id(), participant(), person()}),
       table<CubeRow>("cubes", "a cube of an attempt at a trial", of_trial("cube"),
                      "r.trial_id, r.slot", {session_id(), participant(), person(), trial_id()}),
-      table<SessionHeader>("participants", "a session",
-                           "session r JOIN session s USING (session_id)", "r.session_id",
-                           {session_id(), person()}, about_participants(participants)),
+      table<SessionHeader>(
+          "participants", "a session",
+          "(SELECT * FROM session WHERE state != 'withdrawn') r JOIN session s USING (session_id)",
+          "r.session_id", {session_id(), person()}, about_participants(participants)),
       table<SessionConfig>(
           "setups", "a configuration", of_session("setup"), "r.setup_id",
           {session_id(), participant(), person(),
