@@ -125,13 +125,40 @@ std::string bench_program() {
   return "";
 }
 
+namespace {
+// Beside the program or above it (build folder), or where both are installed.
+std::string module_path(const char* module) {
+  const std::filesystem::path here = program_folder();
+  const std::filesystem::path library = std::filesystem::path(HEFT_LIBDIR) / "heft";
+  for (const std::filesystem::path& folder : {here, here.parent_path(), here.parent_path() / library,
+                                              here.parent_path().parent_path() / library}) {
+    std::error_code none;
+    if (std::filesystem::is_regular_file(folder / module, none)) return (folder / module).string();
+  }
+  return "";
+}
+
+// @return the reason for refusing a loaded module; empty: none
+std::string wrong_edition(void* loaded, const char* name) {
+  const auto* edition =
+      static_cast<const char* const*>(dlsym(loaded, fmt::format("{}_edition", name).c_str()));
+  if (!edition) return "it is no module of heft";
+  if (std::string_view(*edition) == module_edition) return "";
+  return fmt::format("it is of heft {}, expected {}", *edition, module_edition);
+}
+}  // namespace
+
 const void* from_module(const char* module, const char* name, std::string_view purpose) {
-  if (void* loaded = dlopen(module, RTLD_NOW | RTLD_LOCAL))
+  const std::string path = module_path(module);
+  std::string why = path.empty() ? "it is not beside the program" : "";
+  void* loaded = path.empty() ? nullptr : dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!path.empty()) why = loaded ? wrong_edition(loaded, name) : dlerror();
+  if (why.empty())
     if (const void* found = dlsym(loaded, name)) return found;
   throw Error(
-      fmt::format("the module that {} can't be loaded ({}); install or build heft again, so that "
-                  "{} matches the program",
-                  purpose, dlerror(), module));
+      fmt::format("the module {}, which {}, can't be loaded: {}. Install or build heft again, so "
+                  "that it matches the program",
+                  path.empty() ? module : path, purpose, why));
 }
 
 }  // namespace heft

@@ -22,12 +22,16 @@ std::string installed_file_or_none(const std::string& name);
 /// it is missing.
 std::string bench_program();
 
+/// What programs and modules must have in common: a module exports it as NAME_edition. Increase the
+/// number when a module's interface changes.
+inline constexpr const char* module_edition = HEFT_VERSION " 1";
+
 /// Loads a module on first use and returns the address of one of its symbols. Libraries that bring
-/// many others with them are linked to modules, so that the program starts fast without them. The
-/// RPATHs of CMakeLists.txt say where modules are searched. A module stays loaded, because other
-/// threads may be using it.
+/// many others with them are linked to modules, so that the program starts fast without them. A
+/// module is searched beside the program and in the folder where it is installed, nowhere else. It
+/// stays loaded, because other threads may be using it.
 /// @param purpose of the module, for the message: "reads and writes pictures"
-/// @throws Error naming the module and the loader's reason
+/// @throws Error naming the module and the reason: it is missing, or of another edition
 const void* from_module(const char* module, const char* name, std::string_view purpose);
 
 }  // namespace heft

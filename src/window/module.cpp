@@ -1,4 +1,5 @@
 // heft-window.so, loaded by view/Window.h.
+#include "base/Program.h"
 #include "view/Window.h"
 #include "window/GlWindow.h"
 #include "window/WindowView.h"
@@ -8,3 +9,4 @@ extern "C" __attribute__((visibility("default"))) const heft::WindowModule heft_
       return std::make_unique<heft::WindowView>(setup);
     },
     heft::displays, heft::check_displays, heft::measure_card, heft::touch_delays_s};
+extern "C" __attribute__((visibility("default"))) const char* const heft_window_edition = heft::module_edition;

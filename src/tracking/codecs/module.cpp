@@ -2,6 +2,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "base/Program.h"
 #include "tracking/codecs/Codecs.h"
 
 namespace {
@@ -23,3 +24,4 @@ extern "C" __attribute__((visibility("default"))) const heft::Codecs heft_codecs
       return std::make_unique<cv::VideoWriter>(path, backend, four_cc, rate_hz,
                                                cv::Size(width, height));
     }};
+extern "C" __attribute__((visibility("default"))) const char* const heft_codecs_edition = heft::module_edition;
