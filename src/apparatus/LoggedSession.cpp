@@ -51,6 +51,8 @@ LoggedSession load_session(const LogReader& reader, const std::string& db,
                                      session.setups.front().setup.settings);
   protocol.name = header.protocol_name;
   keep_censoring_rule(protocol, header.log_version);
+  constexpr int first_without_gaps_in_contacts = 8;
+  protocol.gaps_end_contacts = header.log_version >= first_without_gaps_in_contacts;
   session.setup = session.setups.back().setup;
   session.protocol = protocol_for(std::move(protocol), session.setup);
   return session;

@@ -60,6 +60,7 @@ ShownFrame TrialWorld::advance(const TargetSample& sample) {
     world.clone_present = sample.tracked;
     world.clone = {seen_at, sample.velocity};
   }
+  last_s_ = sample.t_capture_s;
   shown.state_hash = state_hash(world);
   shown.frame.t_s = sample.t_capture_s;
   shown.frame.tracked = sample.tracked;
@@ -81,6 +82,7 @@ void TrialWorld::note_view(const TargetSample& sample, ShownFrame& shown) {
 
 void TrialWorld::note_contacts(const TargetSample& sample, ShownFrame& shown) {
   const double t_s = sample.t_capture_s;
+  const bool was_interrupted = protocol_.gaps_end_contacts && t_s - last_s_ > longest_gap_s;
   const Eigen::Vector3d& effector_m = sample.pose.position_m;
   const double lag_m = (drive_->state().clone.pose.position_m - effector_m).norm();
   const std::vector<CubeContact>& touching = drive_->state().contacts;
@@ -102,7 +104,7 @@ void TrialWorld::note_contacts(const TargetSample& sample, ShownFrame& shown) {
       contact.since_s = t_s;
       shown.events.push_back({log_time(t_s), CubeTouch{slot_of(i)}});
     } else if (contact.since_s) {
-      if (!contact.left_s) contact.left_s = t_s;
+      if (!contact.left_s) contact.left_s = was_interrupted ? last_s_ : t_s;
       if (t_s - *contact.left_s >= push_gap_s) end_contact(i, *contact.left_s, t_s, shown.events);
     }
   }

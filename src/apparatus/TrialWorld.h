@@ -65,6 +65,7 @@ class TrialWorld {
   Scene scene_;
   std::optional<Drive> drive_;  // exists once the cubes appear
   std::vector<Contact> contacts_;
+  double last_s_ = 0;  // time of the last sample
   bool tracked_ = true;
   bool reset_requested_ = false;
 };

@@ -13,7 +13,6 @@
 namespace heft {
 
 namespace {
-constexpr double longest_gap_s = 0.25 + 1e-6;  // allows for rounding of time differences
 constexpr double clear_m = 0.0005;
 // Pose of the clone until the effector is first seen.
 const Pose out_of_the_way{{0, 0, 10}, Eigen::Quaterniond::Identity()};

@@ -28,6 +28,9 @@ Pose predicted(const TargetSample& sample, double ahead_s);
 /// A sample of a synthetic path, with zero velocity; none: out of view.
 TargetSample sample_of(double t_capture_s, const std::optional<Pose>& pose);
 
+/// A longer gap between two samples is a jump. Allows for rounding of time differences.
+inline constexpr double longest_gap_s = 0.25 + 1e-6;
+
 class Drive {
  public:
   /// @param rate_hz lower bound of the physics rate; a picture takes ceil(dt * rate) equal steps

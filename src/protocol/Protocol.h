@@ -74,6 +74,9 @@ struct Protocol : SessionPlan {
   std::string title;
   double display_rate_hz = 15;
   double void_after_s = 5;  ///< a camera or board lost for longer voids the trial
+  /// A contact that a gap between pictures interrupts ends before it. Not a key of files; false for
+  /// logs before version 8, where it ended after the gap.
+  bool gaps_end_contacts = true;
   Onset onset;
   Eigen::Vector3d effector_size_m{0.09, 0.04, 0.04};
   Coupling coupling;                  ///< of C2, and defaults of declared techniques

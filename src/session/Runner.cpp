@@ -14,7 +14,8 @@ Runner::Runner(const SessionParts& parts, const RunnerOptions& options)
       options_(options),
       journal_(parts.engine, parts.sink, parts.clock, options.progress),
       screen_(journal_, parts.view, parts.texts, parts.asked),
-      control_(journal_, screen_, options, parts.has_screen, parts.texts != nullptr),
+      control_(journal_, screen_, options, parts.has_screen, parts.texts != nullptr,
+               parts.protocol.void_after_s),
       pages_(parts.protocol, journal_, control_, screen_, parts.texts, parts.before,
              {&parts.responder, parts.asked}) {
   control_.on_check([this] { check_apparatus(); });

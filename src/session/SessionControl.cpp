@@ -58,6 +58,7 @@ std::vector<Touch> SessionControl::touched(double seconds) {
 }
 
 void SessionControl::wait_while_held() {
+  note_alive();
   std::optional<double> busy_since_s;
   for (;;) {
     if (journal_.busy() && !busy_since_s) {
@@ -147,14 +148,52 @@ SessionControl::Answer SessionControl::ask_to_go_on(const std::string& question)
 }
 
 std::vector<Touch> SessionControl::poll(double seconds) {
+  note_alive();
   std::vector<Touch> touches = touched(seconds);
   if (!has_screen_) std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  if (suspend_ && suspend_->exchange(false)) suspend();
+  note_alive();
   note_window();
   journal_.flush_now_and_then();
   if (!console_) return touches;
   while (const auto command = console_->command()) obey(*command);
   show();
   return touches;
+}
+
+void SessionControl::note_alive() {
+  constexpr double standstill_s = 0.5;
+  if (!journal_.clock().is_wall()) return;
+  const double from_s =
+      std::max(std::exchange(alive_s_, journal_.now_s()), journal_.engine().last_s());
+  const Engine& engine = journal_.engine();
+  if (alive_s_ - from_s < standstill_s || !engine.trial_is_open()) return;
+  if (engine.state() != SessionState::running) return;
+  journal_.emit({from_s, SessionPaused{"the program stood still"}}, Durability::acknowledged);
+  stood_still_since(from_s, "the program stood still");
+}
+
+// In a pause that began at `from_s`. Ends it.
+void SessionControl::stood_still_since(double from_s, const std::string& why) {
+  const Engine& engine = journal_.engine();
+  alive_s_ = journal_.now_s();
+  if (engine.trial_is_open() && alive_s_ - from_s > void_after_s_)
+    journal_.emit_now(TrialVoided{why});
+  if (!holding_ && !engine.needs_experimenter()) journal_.emit_now(SessionContinued{});
+}
+
+// The participant sees the pause while the program is suspended.
+void SessionControl::suspend() {
+  const Engine& engine = journal_.engine();
+  const double from_s = journal_.now_s();
+  const bool pauses = engine.state() == SessionState::running;
+  if (pauses) journal_.emit_now(SessionPaused{"suspended"});
+  journal_.flush();
+  ScreenState screen = engine.screen();
+  screen.screen = Screen::paused;
+  screen_.present({}, screen);
+  stop_process_();
+  if (pauses) stood_still_since(from_s, "suspended");
 }
 
 // The initial state is in the configuration; F11 changes it.

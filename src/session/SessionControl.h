@@ -32,6 +32,10 @@ struct RunnerOptions {
   EventOutlet* events = nullptr;
   /// Set to the session's number once it is logged; null: not needed.
   std::int64_t* begun = nullptr;
+  /// Set by a signal handler to suspend the program (Ctrl-Z), and what suspends it; null: not
+  /// wanted.
+  std::atomic<bool>* suspend = nullptr;
+  std::function<void()> stop_process = {};
   /// Continue after a failed check if there is no experimenter to ask.
   bool go_on_unchecked = false;
 };
@@ -78,15 +82,20 @@ class SessionControl {
  public:
   /// @param has_screen whether `screen` can wait; otherwise this object does
   /// @param has_person whether a participant would be lost if the session gave up
+  /// @param void_after_s a standstill of that length voids the open trial
   SessionControl(Journal& journal, ParticipantScreen& screen, const RunnerOptions& options,
-                 bool has_screen, bool has_person)
+                 bool has_screen, bool has_person, double void_after_s)
       : journal_(journal),
         screen_(screen),
         console_(options.console),
         stop_(options.stop),
+        suspend_(options.suspend),
+        stop_process_(options.stop_process),
         print_(options.print),
         has_screen_(has_screen),
-        has_person_(has_person) {}
+        has_person_(has_person),
+        void_after_s_(void_after_s),
+        alive_s_(journal.now_s()) {}
 
   /// Waits up to `seconds`, or while the experimenter holds the session; returns early with the
   /// participant's touches. On a virtual clock it returns immediately.
@@ -98,6 +107,10 @@ class SessionControl {
   /// @throws LogBusy if the database stays locked: for a person never, for a model after half a
   ///   minute, earlier if the session is to be left
   void wait_while_held();
+
+  /// Notices that the program stood still: it was suspended, or a disk was slow. An open trial is
+  /// paused for that time and, if it was long, voided. Call it at least every few pictures.
+  void note_alive();
 
   /// Writes everything, waiting as above.
   void save();
@@ -137,6 +150,8 @@ class SessionControl {
  private:
   std::vector<Touch> poll(double seconds);
   void note_window();
+  void suspend();
+  void stood_still_since(double from_s, const std::string& why);
   void obey(const ConsoleCommand& command);
   void veto(const std::string& why);
   void veto_answer(const std::string& why);
@@ -158,8 +173,12 @@ class SessionControl {
   ParticipantScreen& screen_;
   Console* console_;
   const std::atomic<bool>* stop_;
+  std::atomic<bool>* suspend_;
+  std::function<void()> stop_process_;
   std::function<void(const std::string&)> print_;
   bool has_screen_, has_person_;
+  double void_after_s_;
+  double alive_s_;  // session time when the program was last seen running
   std::function<void()> check_;
   std::optional<Answer> answer_;  // to what is being asked
   std::vector<Touch> pending_;    // not returned yet

@@ -101,6 +101,7 @@ namespace {
 // State of the one RawTerminal, for signal handlers; set before these are installed.
 termios as_it_was{}, raw{};
 std::atomic<bool> is_raw{false};
+std::atomic<bool> suspend_requested{false};
 struct sigaction stopping_before {
 }, continuing_before{};
 
@@ -115,7 +116,7 @@ void set(const termios& settings) {
 }
 
 // Calls only async-signal-safe functions.
-void on_stop(int) {
+void stop_process() {
   const int error = errno;
   if (is_raw.exchange(false)) {
     set(as_it_was);
@@ -134,6 +135,10 @@ void on_stop(int) {
   errno = error;
 }
 
+void on_suspend(int) {
+  if (suspend_requested.exchange(true)) stop_process();
+}
+
 // Another program may have changed the terminal meanwhile; listens() checks.
 void on_continue(int) {
   is_raw = false;
@@ -148,19 +153,34 @@ void install(int signal, void (*handler)(int), struct sigaction& held) {
 }
 }  // namespace
 
+SuspendOnSignal::SuspendOnSignal() {
+  suspend_requested = false;
+  install(SIGTSTP, on_suspend, stopping_before);
+}
+
+SuspendOnSignal::~SuspendOnSignal() {
+  sigaction(SIGTSTP, &stopping_before, nullptr);
+}
+
+std::atomic<bool>& SuspendOnSignal::requested() const {
+  return suspend_requested;
+}
+
+void SuspendOnSignal::stop_now() {
+  stop_process();
+}
+
 RawTerminal::RawTerminal() : is_there_(isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1) {
   if (!is_there_) return;
   tcgetattr(STDIN_FILENO, &as_it_was);
   raw = as_it_was;
   raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // single keys; Ctrl-C remains a signal
-  install(SIGTSTP, on_stop, stopping_before);
   install(SIGCONT, on_continue, continuing_before);
   listens();
 }
 
 RawTerminal::~RawTerminal() {
   if (!is_there_) return;
-  sigaction(SIGTSTP, &stopping_before, nullptr);
   sigaction(SIGCONT, &continuing_before, nullptr);
   if (is_raw.exchange(false)) set(as_it_was);
 }

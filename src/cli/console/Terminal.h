@@ -89,6 +89,21 @@ class StopOnSignal {
   std::array<void (*)(int), 3> before_{};
 };
 
+/// While such an object exists, SIGTSTP (Ctrl-Z) sets the flag instead of stopping the program, so
+/// that a session can pause first. A second one stops it immediately. One object at a time.
+class SuspendOnSignal {
+ public:
+  SuspendOnSignal();
+  ~SuspendOnSignal();
+  SuspendOnSignal(const SuspendOnSignal&) = delete;
+  SuspendOnSignal& operator=(const SuspendOnSignal&) = delete;
+
+  std::atomic<bool>& requested() const;
+
+  /// Restores the terminal and stops the program until it is continued (fg).
+  static void stop_now();
+};
+
 inline constexpr std::string_view missing_charts =
     "No charts: gnuplot is not installed (sudo apt-get install gnuplot-nox).";
 
@@ -96,7 +111,7 @@ inline constexpr std::string_view missing_charts =
 void explain_missing_charts(const ReportResult& report, const std::string& folder);
 
 /// The keyboard key by key: while this object exists, the terminal has no line editing and no echo.
-/// Restored whenever the program is stopped (Ctrl-Z) or ends.
+/// Restored whenever SuspendOnSignal stops the program, or it ends.
 class RawTerminal {
  public:
   /// Has no effect unless stdin and stderr are both terminals. One object at a time.
