@@ -95,7 +95,7 @@ std::string as_csv(const Table& table, std::string_view data) {
     text += csv_cell(data);
     for (std::size_t i : places)
       text += row[i].value ? fmt::format(",{}", *row[i].value)
-                           : fmt::format(",{}", csv_cell(row[i].text));
+                           : fmt::format(",{}", csv_cell(without_formula(row[i].text)));
     text += '\n';
   }
   return text;
@@ -131,6 +131,8 @@ std::string html_escaped(std::string_view text) {
       escaped += "&gt;";
     else if (c == '"')
       escaped += "&quot;";
+    else if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t')
+      escaped += "\uFFFD";
     else
       escaped += c;
   }

@@ -14,7 +14,7 @@ namespace heft {
 namespace {
 SqliteFailure input_output_failure(int extended_code, int system_error) {
   const bool no_space = system_error == ENOSPC || system_error == EDQUOT || system_error == EFBIG;
-  if (no_space || extended_code == SQLITE_IOERR_SHMSIZE)
+  if (no_space || (extended_code == SQLITE_IOERR_SHMSIZE && system_error == 0))
     return {system_error == EDQUOT  ? "the disk quota is used up"
             : system_error == EFBIG ? "the file has reached the largest size allowed"
                                     : "the disk is full",

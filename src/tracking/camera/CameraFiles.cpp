@@ -41,8 +41,13 @@ std::vector<std::string> picture_names(const std::string& folder) {
   std::error_code error;
   std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-    if (entry.is_regular_file() && is_image_file(entry.path().string()))
+    if (is_image_file(entry.path().string())) {
+      if (!entry.is_regular_file())
+        throw Error(fmt::format("{} is no file (a pipe, a device, or a link to nothing); remove it "
+                                "from the pictures",
+                                entry.path().string()));
       names.push_back(entry.path().filename().string());
+    }
   if (error)
     throw Error(
         fmt::format("{} cannot be read as a folder of pictures: {}", folder, error.message()));
@@ -92,6 +97,11 @@ std::vector<double> times_of(const std::string& folder, const std::vector<std::s
     return times;
   }
   const auto by_name = read_times(file);
+  for (const auto& [name, t_s] : by_name)
+    if (std::ranges::find(names, name) == names.end())
+      throw Error(fmt::format("{} has a time for {}, but {} has no such picture; restore it, or "
+                              "remove its line",
+                              file, name, folder));
   for (const std::string& name : names) {
     const auto found = by_name.find(name);
     if (found == by_name.end())
