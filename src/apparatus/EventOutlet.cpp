@@ -222,6 +222,12 @@ std::string AnnouncingSink::line_of(const Event& event, const Changes& changes) 
   return event_line(event, about);
 }
 
+void AnnouncingSink::announce_head(double t_s, const std::string& head) {
+  const auto now = std::chrono::system_clock::now();
+  outlet_.send(sealed_line(
+      {session_id_, participant_, utc_of(zero_ ? *zero_ + as_duration(t_s) : now), {}}, t_s, head));
+}
+
 void AnnouncingSink::announce(const Event& event, const Changes& changes) {
   outlet_.send(line_of(event, changes));
 }

@@ -63,6 +63,9 @@ class AnnouncingSink final : public EventSink {
   AnnouncingSink(EventSink& log, EventOutlet& outlet, std::int64_t session_id,
                  std::string participant);
 
+  /// Announces the log's head after the session's last event.
+  void announce_head(double t_s, const std::string& head);
+
   /// Announces an event that is already on disk.
   void announce(const Event& event, const Changes& changes);
 

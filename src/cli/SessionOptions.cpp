@@ -14,6 +14,7 @@
 #include "physics/scene/Oracles.h"
 #include "protocol/Protocol.h"
 #include "record/writer/Backup.h"
+#include "replay/Replay.h"
 #include "session/Session.h"
 
 namespace heft::cli {
@@ -132,11 +133,14 @@ void add_go_on(Command& command, bool& go_on) {
                    "to ask; it is logged");
 }
 
-void add_elsewhere_options(Command& command, std::string& backup,
+void add_elsewhere_options(Command& command, SessionOptions& given,
                            std::optional<EventTarget>& events) {
   command.group("Backups and other recorders");
+  command.add_option("--operator", &given.run_by,
+                     "who runs the session, for the log (default: the study plan's; for a resumed "
+                     "session, the one it had)");
   command.add_option(
-      "--backup", &backup,
+      "--backup", &given.backup,
       "a folder, preferably on another disk: after the session a copy of the log is saved and "
       "verified there (default: the study plan's; for a resumed session, the one it had)");
   const auto read = [&events](const std::string& text) { events = parse_event_target(text); };
@@ -202,6 +206,22 @@ std::vector<std::string> cautions(const Protocol& protocol) {
   return found;
 }
 
+void add_unverified(Command& command, bool& unverified) {
+  command.add_flag("--unverified", unverified,
+                   "do not check first whether the log was changed; all figures are marked");
+}
+
+LogIntegrity integrity_of(const std::vector<std::string>& databases,
+                          const std::vector<std::int64_t>& session_ids, bool unverified) {
+  if (unverified) return {false, "NOT VERIFIED"};
+  ProgressBar bar("verifying");
+  std::vector<std::string> heads;
+  for (const std::string& database : databases)
+    heads.push_back(short_head(
+        require_verified(database, session_ids, [&](double done) { bar.update(done, database); })));
+  return {true, fmt::format("verified, head {}", fmt::join(heads, ", "))};
+}
+
 void back_up_and_report(const std::string& db, const std::string& folder, std::int64_t session_id) {
   if (folder.empty()) return;
   try {
@@ -257,6 +277,7 @@ SessionResult run_session(const CommandedSession& session,
   if (session.events) events.emplace(*session.events);
   check_backup(session.config->config.backup);
   const StopOnSignal stop_on_signal;
+  std::optional<SuspendOnSignal> suspend_on_signal;
   ProgressBar bar("session");
   std::optional<TerminalConsole> console;
   const double expected = total_of(expected_trials(*session.config->protocol));
@@ -265,9 +286,11 @@ SessionResult run_session(const CommandedSession& session,
   options.go_on_unchecked = session.go_on_unchecked;
   options.events = events ? &*events : nullptr;
   options.print = [](const std::string& text) { say("heft: {}\n", text); };
-  if (session.config->on_wall_clock)
+  if (session.config->on_wall_clock) {
+    options.suspend = &suspend_on_signal.emplace().requested();
+    options.stop_process = SuspendOnSignal::stop_now;
     options.console = &console.emplace(expected, session.unblind, session.place);
-  else  // blind: no mass, level, condition or correctness
+  } else  // blind: no mass, level, condition or correctness
     options.progress = [&](const Engine& engine) {
       bar.update(expected > 0 ? engine.n_completed() / expected : 0,  // a demonstration alone: 0
                  fmt::format("{} trials, {:.0f} min", of_about(engine.n_completed(), expected),
@@ -286,6 +309,8 @@ SessionResult run_session(const CommandedSession& session,
   console.reset();
   if (events) report_dropped(*events, session.events->text);
   back_up_and_report(session.db, session.config->config.backup, result.session_id);
+  say("head of the log: {0}. Note it down; later: heft replay --db {1} --witness {0}\n",
+      short_head(result.head), shell_quoted(session.db));
   const std::string resume =
       fmt::format("heft resume --db {} --session {}", shell_quoted(session.db), result.session_id);
   if (result.end == RunEnd::stopped)

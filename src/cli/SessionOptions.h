@@ -11,6 +11,7 @@
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "cli/CommandLine.h"
 #include "protocol/Protocol.h"
+#include "record/reader/LogReader.h"
 
 namespace heft {
 struct RunnerOptions;
@@ -64,9 +65,17 @@ void print_simulator(const ResolvedConfig& config);
 /// Cautions about a valid protocol, one sentence each; usually none.
 std::vector<std::string> cautions(const Protocol& protocol);
 
-/// Adds --backup, --events.
-void add_elsewhere_options(Command& command, std::string& backup,
+/// Adds --operator, --backup, --events.
+void add_elsewhere_options(Command& command, SessionOptions& given,
                            std::optional<EventTarget>& events);
+
+/// Adds --unverified.
+void add_unverified(Command& command, bool& unverified);
+
+/// Verifies logs, with a progress bar.
+/// @throws Error (diverged) if one is not sound, unless `unverified`
+LogIntegrity integrity_of(const std::vector<std::string>& databases,
+                          const std::vector<std::int64_t>& session_ids, bool unverified);
 
 /// Backs up the log and prints where, or a warning that there is no backup, which does not affect
 /// the session.

@@ -220,11 +220,12 @@ void visit_columns(Row& row, Visit&& visit) {
         row.value);
 }
 
-enum class SessionState { running, paused, finished, aborted };
+/// withdrawn: its data were removed at the participant's wish.
+enum class SessionState { running, paused, finished, aborted, withdrawn };
 template <>
 struct EnumNames<SessionState> {
-  static constexpr std::array<std::string_view, 4> names{"running", "paused", "finished",
-                                                         "aborted"};
+  static constexpr std::array<std::string_view, 5> names{"running", "paused", "finished", "aborted",
+                                                         "withdrawn"};
 };
 
 /// All changes of one event to the log, written in one transaction with the event.

@@ -95,6 +95,7 @@ struct SessionConfig {
   std::optional<double> gap_s, min_answer_s;
   std::optional<TakesKeys> keys;
   std::string heft_version, build;
+  std::string run_by;  ///< the experimenter; empty: unknown
   /// Parameters drawn for a simulated participant, by name; table `participant_parameter`.
   std::map<std::string, double> participant_parameters;
   // In the event only: the protocol's file, beside which questionnaires are found, and the folder
@@ -183,6 +184,8 @@ void visit_columns(Row& row, Visit&& visit) {
         row.display_scale);
   visit(LogColumn{"display_file", "", "file with the measured size of the display"},
         NullIfEmpty{row.display_file});
+  visit(LogColumn{"operator", "", "who ran the session from here on; empty: unknown"},
+        NullIfEmpty{row.run_by});
 }
 
 /// Visits what only the event holds: paths, contents of files and drawn parameters.

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apparatus/sources/PictureSource.h"
 #include "base/Error.h"
 #include "base/Program.h"
+#include "base/files/Printable.h"
 #include "base/files/TextFile.h"
 #include "physics/DecouplingSimulator.h"
 #include "record/schema/EventRow.h"
@@ -24,6 +27,7 @@ class Verifier {
   Verification rows() {
     std::string unreadable;
     try {
+      if (reader_.session(session_id_).state == SessionState::withdrawn) return tombstone();
       compare_protocol();
       session_ = load_session(reader_, "", session_id_);
       fold();
@@ -43,7 +47,7 @@ class Verifier {
   // Changed rows are not simulated: their cost is unknown.
   Verification all(const std::function<void(double)>& progress) {
     rows();
-    if (result_.first) return result_;
+    if (result_.first || result_.withdrawn) return result_;
     try {
       compare_frames(progress);
     } catch (const OnlyForStudies&) {
@@ -55,6 +59,14 @@ class Verifier {
   }
 
  private:
+  Verification tombstone() {
+    result_.ended = result_.withdrawn = true;
+    if (!logged_rows(reader_, session_id_).empty() || !reader_.events(session_id_).empty())
+      differ(0, 0, "the rows of a withdrawn session", "some", "none");
+    compare_digests();
+    return result_;
+  }
+
   void compare_protocol() {
     const SessionHeader header = reader_.session(session_id_).header;
     const std::string sha256_of_text = sha256(header.protocol_text);
@@ -205,8 +217,68 @@ Verification verify_session(const LogReader& reader, std::int64_t session_id,
   return Verifier(reader, session_id).all(progress);
 }
 
-Verification verify_rows(const LogReader& reader, const LoggedSession& session) {
-  return Verifier(reader, session.row.session_id).rows();
+Verification verify_rows(const LogReader& reader, std::int64_t session_id) {
+  return Verifier(reader, session_id).rows();
+}
+
+std::vector<std::string> faults_of_file(const LogReader& reader, const std::string& db) {
+  std::vector<std::string> faults;
+  for (const std::string& fault : check_integrity(db))
+    faults.push_back("the file is damaged: " + fault);
+  if (const auto broken = reader.first_broken_seal())
+    faults.push_back(
+        broken->damage.empty()
+            ? fmt::format("{} does not follow: sessions were removed, added, renumbered or "
+                          "swapped (logged: {}, found: {})",
+                          broken->row, broken->logged, broken->recomputed)
+            : fmt::format("{} is {}", broken->row, broken->damage));
+  return faults;
+}
+
+namespace {
+[[noreturn]] void refuse_unverified(const std::string& db, const std::string& fault) {
+  throw Error(fmt::format("{} is not verified: {}. Inspect it with heft replay --db {}; "
+                          "--unverified prints its figures nevertheless, with a mark",
+                          db, fault, shell_quoted(db)),
+              ExitCode::diverged);
+}
+}  // namespace
+
+std::string require_verified(const std::string& db, const std::vector<std::int64_t>& session_ids,
+                             const std::function<void(double)>& progress) {
+  const LogReader reader(db);
+  if (const auto faults = faults_of_file(reader, db); !faults.empty())
+    refuse_unverified(db, faults.front());
+  const auto ids = session_ids.empty() ? reader.session_ids() : session_ids;
+  double n_done = 0;
+  for (const std::int64_t id : ids) {
+    progress(n_done++ / static_cast<double>(ids.size()));
+    if (const Verification found = verify_rows(reader, id); found.first)
+      refuse_unverified(db, fmt::format("session {}, at {:.3f} s: {} is {}, but its events give {}",
+                                        id, found.first->t_s, found.first->what,
+                                        found.first->logged, found.first->came_out));
+  }
+  progress(1);
+  return reader.head();
+}
+
+Witness find_witness(const LogReader& reader, const std::string& head) {
+  constexpr std::size_t fewest = 8, most = 64;
+  if (head.size() < fewest || head.size() > most ||
+      head.find_first_not_of("0123456789abcdef") != std::string::npos)
+    throw Error(fmt::format("--witness {}: expected a head, as a session prints it at its end: {} "
+                            "to {} characters of 0-9 and a-f",
+                            head, fewest, most),
+                ExitCode::usage);
+  const auto seals = reader.seals();
+  const auto found =
+      std::ranges::find_if(seals, [&](const Seal& seal) { return seal.head.starts_with(head); });
+  if (found == seals.end())
+    throw Error(fmt::format("no session of this log ended with the head {}: it is another log, or "
+                            "sessions were removed or changed since",
+                            head),
+                ExitCode::diverged);
+  return {*found, static_cast<int>(seals.end() - found) - 1};
 }
 
 }  // namespace heft

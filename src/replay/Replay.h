@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apparatus/LoggedSession.h"
 #include "record/reader/LogReader.h"
@@ -25,6 +26,7 @@ struct Divergence {
 
 struct Verification {
   int n_events = 0, n_rows = 0, n_attempts = 0, n_frames = 0;
+  bool withdrawn = false;  ///< the session has no data any more
   bool ended = false;  ///< whether the session has ended; otherwise its part so far was verified
   /// Frames of a simulator edition that this program lacks: verified except for their poses.
   int n_other_edition = 0;
@@ -39,7 +41,27 @@ Verification verify_session(const LogReader& reader, std::int64_t session_id,
                             const std::function<void(double)>& progress);
 
 /// Everything except the simulation of frames.
-Verification verify_rows(const LogReader& reader, const LoggedSession& session);
+Verification verify_rows(const LogReader& reader, std::int64_t session_id);
+
+/// A log as a whole: pages, constraints, references and the chain of seals.
+/// @return a message for each fault
+std::vector<std::string> faults_of_file(const LogReader& reader, const std::string& db);
+
+/// Verifies sessions without simulating frames, one at a time, before their figures are printed.
+/// @param session_ids empty: all
+/// @return the log's head; empty for a log without sealed sessions
+/// @throws Error (diverged) naming the first row that differs
+std::string require_verified(const std::string& db, const std::vector<std::int64_t>& session_ids,
+                             const std::function<void(double)>& progress);
+
+/// A witness: a head, or its first characters, that was noted when a session ended.
+struct Witness {
+  Seal seal;        ///< the one that the head is of
+  int n_since = 0;  ///< sealed since then
+};
+
+/// @throws Error (usage) for a text that is no head; Error (diverged) if no seal of the log has it
+Witness find_witness(const LogReader& reader, const std::string& head);
 
 struct ReplayViewOptions {
   const Protocol* what_if = nullptr;  ///< whose clone is drawn, too; null: none

@@ -72,8 +72,13 @@ RunEnd run_with(Equipment& equipment, Engine& engine, EventSink& sink, const Run
   return Runner(parts, runner).run();
 }
 
-SessionResult result_of(const Engine& engine, RunEnd end, std::int64_t session_id) {
-  return {end, session_id, engine.last_s(), engine.n_completed()};
+// Seals the session. Fails if the file was moved or deleted.
+SessionResult close(const Engine& engine, RunEnd end, SessionLog& log,
+                    std::optional<AnnouncingSink>& announcing) {
+  if (announcing) announcing->flush();
+  const std::string head = log.seal();
+  if (announcing) announcing->announce_head(engine.last_s(), head);
+  return {end, log.session_id(), engine.last_s(), engine.n_completed(), head};
 }
 
 // New events must follow an unchanged log.
@@ -81,7 +86,9 @@ void refuse_changed_log(const LogReader& reader, const LoggedSession& session) {
   std::string why;
   if (const auto foreign = reader.foreign_objects(); !foreign.empty())
     why = fmt::format("its schema has an unknown object: {}", foreign.front());
-  else if (const Verification found = verify_rows(reader, session); found.first)
+  else if (const auto broken = reader.first_broken_seal())
+    why = fmt::format("{} does not follow from the one before it", broken->row);
+  else if (const Verification found = verify_rows(reader, session.row.session_id); found.first)
     why = fmt::format("{} is {}, but its events give {}", found.first->what, found.first->logged,
                       found.first->came_out);
   if (!why.empty())
@@ -162,8 +169,7 @@ SessionResult start_session(const SessionRequest& request, const RunnerOptions& 
   EventSink& sink = heard_by_others(announcing, log, runner, request.participant);
   if (announcing) announcing->announce(first.event, first.changes);
   const RunEnd end = run_with(equipment, engine, sink, runner, 0);
-  sink.flush();  // fails if the file was moved or deleted
-  return result_of(engine, end, log.session_id());
+  return close(engine, end, log, announcing);
 }
 
 LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_t> session_id) {
@@ -204,15 +210,14 @@ SessionResult resume_session(const LoggedSession& session, const ResolvedConfig&
   sink.flush();  // the whole resumption or nothing
   const RunEnd end = run_with(equipment, reopened.engine, sink, runner, now_s,
                               resume_state(reopened.events, session.row.header.participant_info));
-  sink.flush();
-  return result_of(reopened.engine, end, session.row.session_id);
+  return close(reopened.engine, end, reopened.log, announcing);
 }
 
 void abort_session(const LoggedSession& session) {
   Reopened reopened(session);
   reopened.close_attempt("aborted");
   reopened.append({reopened.engine.last_s(), SessionEnded{Ending::aborted}});
-  reopened.log.flush();
+  reopened.log.seal();
 }
 
 RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner) {

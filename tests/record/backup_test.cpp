@@ -71,9 +71,9 @@ TEST_F(Backup, CanBeWrittenAsALog) {
 }
 
 TEST_F(Backup, IsNamedAfterParticipantSessionAndTime) {
-  EXPECT_EQ(backup_name("P/01 ä", 7, "2026-11-22T09:30:00.123Z"),
-            "P_01____session7_20261122T093000Z");
-  EXPECT_EQ(backup_name("../../etc", 1, "2026-11-22T09:30:00Z"),
+  EXPECT_EQ(backup_name("P/01 ä", 7, "2026-11-22T09:30:00.123Z", "1a2b3c4d5e6f7890"),
+            "P_01____session7_20261122T093000Z_1a2b3c4d5e6f");
+  EXPECT_EQ(backup_name("../../etc", 1, "2026-11-22T09:30:00Z", ""),
             "______etc_session1_20261122T093000Z");
   EXPECT_THAT(back_up(db, folder, 1), HasSubstr("/P_01____session1_20"));
   EXPECT_EQ(files_in(folder).size(), 1u);

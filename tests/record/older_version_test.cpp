@@ -45,7 +45,7 @@ class OlderVersion : public testing::TestWithParam<int> {
   std::string log_ = folder_.file("log.db");
   std::string older_file_ = fmt::format("{}.v{}", log_, GetParam());
 };
-INSTANTIATE_TEST_SUITE_P(Versions, OlderVersion, testing::Values(5, 6),
+INSTANTIATE_TEST_SUITE_P(Versions, OlderVersion, testing::Values(5, 6, 7),
                          [](const auto& version) { return fmt::format("v{}", version.param); });
 
 TEST_P(OlderVersion, IsUpgradedAndOlderFileIsKept) {
@@ -66,13 +66,14 @@ TEST_P(OlderVersion, KeepsAllAnswers) {
       "'-') || ' ' || ifnull(label, '-') FROM answer ORDER BY rowid";
   const auto before = cells(log_, answers);
   ASSERT_GT(before.size(), 10u);
-  LogReader{log_};
+  const LogReader upgraded(log_);
   EXPECT_EQ(cells(log_, answers), before);
   EXPECT_EQ(number(log_, "SELECT count(*) FROM answer WHERE value IS NULL"),
             static_cast<int>(before.size()));
 }
 
 TEST_P(OlderVersion, KeepsValuesOfRenamedColumns) {
+  if (GetParam() >= 7) GTEST_SKIP() << "version 7 has today's names";
   constexpr auto pushes_before = "SELECT ifnull(deepest_push_m, '-') FROM cube ORDER BY rowid",
                  pushes = "SELECT ifnull(max_push_displacement_m, '-') FROM cube ORDER BY rowid",
                  setups_before = "SELECT handed || simulator_why FROM setup ORDER BY rowid",
@@ -90,7 +91,7 @@ TEST_P(OlderVersion, KeepsValuesOfRenamedColumns) {
 }
 
 TEST_P(OlderVersion, GetsWordsOfItsTasks) {
-  LogReader{log_};
+  const LogReader upgraded(log_);
   EXPECT_GT(number(log_, "SELECT count(*) FROM list_task WHERE edition = 1"), 0);
   EXPECT_EQ(number(log_, "SELECT count(DISTINCT task) FROM trial"),
             number(log_, "SELECT count(*) FROM list_task WHERE edition = 1"));

@@ -62,7 +62,7 @@ class Replay : public ::testing::Test {
            ("heft-replay-" + std::to_string(::getpid()) + ".db");
   }
   void TearDown() override {
-    for (const char* end : {"", "-wal", "-shm", "-lock", ".v2", ".v3", ".v4", ".v5"})
+    for (const char* end : {"", "-wal", "-shm", "-lock", ".v2", ".v3", ".v4", ".v5", ".v6", ".v7"})
       std::filesystem::remove(path.string() + end);
   }
 
@@ -127,7 +127,7 @@ TEST_F(Replay, LogsOfOlderVersionsAreVerified) {
 
 TEST_F(Replay, AColumnThatTheUpgradeAddedMustHoldWhatItWrites) {
   test::copy_older_log(path);
-  LogReader{path.string()};
+  const LogReader upgraded(path.string());
   SQLite::Database(path.string(), SQLite::OPEN_READWRITE)
       .exec("UPDATE answer SET value = 3 WHERE answer_id = 1");
   const Verification found = verify_session(LogReader(path.string()), 1, [](double) {});

@@ -237,6 +237,7 @@ class Resolver {
     if (given_.controls) config_.controls = *given_.controls;
     if (given_.hand) config_.hand = given_.hand;
     if (given_.keys) config_.keys = given_.keys;
+    if (!given_.run_by.empty()) config_.run_by = given_.run_by;
     if (!given_.backup.empty()) config_.backup = absolute_path(given_.backup);
     config_.heft_version = HEFT_VERSION;
     config_.build = build_name();

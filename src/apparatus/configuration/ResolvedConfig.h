@@ -39,7 +39,7 @@ struct SessionOptions {
   std::vector<ProtocolSetting> settings = {};  ///< already applied to the protocol; logged
   std::optional<Side> controls, hand;          ///< controls: else right
   std::optional<TakesKeys> keys;
-  std::string record_camera = {}, backup = {}, protocol_file = {};
+  std::string record_camera = {}, backup = {}, protocol_file = {}, run_by = {};
 };
 
 /// Calibration file used by default, if the working directory has it.

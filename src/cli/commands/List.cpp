@@ -16,11 +16,21 @@ namespace heft::cli {
 namespace {
 using Line = std::vector<std::string>;
 
-const Line headings{"session", "participant", "protocol", "purpose", "state",
-                    "trials",  "minutes",     "started",  "study",   "group, order"};
+const Line headings{"session", "participant", "protocol", "purpose",
+                    "state",   "trials",      "minutes",  "pictures dropped, late",
+                    "started", "head",        "study",    "group, order"};
 
 std::string seconds_of(const std::string& utc) {
   return utc.substr(0, utc.find('.')) + (utc.find('.') == std::string::npos ? "" : "Z");
+}
+
+// Empty without a live camera.
+std::string pictures_text(const CameraReport& pictures) {
+  if (pictures.n_shown + pictures.n_dropped == 0) return "";
+  const auto percent = [](int n, int of) { return of > 0 ? 100.0 * n / of : 0; };
+  return fmt::format("{:.1f} %, {:.1f} %",
+                     percent(pictures.n_dropped, pictures.n_shown + pictures.n_dropped),
+                     percent(pictures.n_late, pictures.n_shown));
 }
 
 Line line_of(const SessionFacts& facts) {
@@ -32,12 +42,14 @@ Line line_of(const SessionFacts& facts) {
             std::string(name_of(facts.row.state)),
             trials_text(facts),
             fmt::format("{:.0f}", facts.duration_s / 60),
+            pictures_text(facts.pictures),
             seconds_of(header.started_utc),
+            short_head(facts.head),
             "",
             ""};
   if (const auto& place = facts.place) {
-    line[8] = fmt::format("{} {} of {}", place->study, place->number, place->participants);
-    line[9] =
+    line[10] = fmt::format("{} {} of {}", place->study, place->number, place->participants);
+    line[11] =
         place->group + (place->group.empty() || place->order.empty() ? "" : ": ") + place->order;
   }
   return line;

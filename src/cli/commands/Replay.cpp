@@ -33,6 +33,7 @@ struct ReplayOptions {
   std::optional<std::string> simulator;
   std::optional<Plug> view;
   std::vector<ProtocolSetting> set;
+  std::string witness;
   bool rerun = false, json = false, tables = false;
   bool supposes() const { return simulator || !set.empty(); }
   bool judges() const { return responder && !rerun; }
@@ -68,6 +69,9 @@ void check(const ReplayOptions& options) {
     refuse(
         "--tables requires --set, --simulator or a --responder, without --rerun, --view and "
         "--json");
+  if (!options.witness.empty() &&
+      (options.session || options.responder || options.supposes() || options.view))
+    refuse("--witness verifies the whole log, without other options");
   if (options.json && !options.judges()) refuse("--json requires a --responder without --rerun");
   if (options.view && options.responder)
     refuse(
@@ -75,10 +79,19 @@ void check(const ReplayOptions& options) {
         "it takes no --responder");
 }
 
+// Withdrawn sessions are only verified.
 std::vector<std::int64_t> chosen_sessions(const LogReader& reader, const ReplayOptions& options) {
-  if (options.session) return {reader.session(*options.session).session_id};
+  const bool only_verifies =
+      !options.judges() && !options.rerun && !options.supposes() && !options.view;
+  if (options.session) {
+    const SessionRow row = reader.session(*options.session);
+    if (row.state == SessionState::withdrawn && !only_verifies)
+      throw Error(fmt::format("the data of session {} were withdrawn", row.session_id));
+    return {row.session_id};
+  }
   std::vector<std::int64_t> ids;
-  for (const SessionRow& row : reader.sessions()) ids.push_back(row.session_id);
+  for (const SessionRow& row : reader.sessions())
+    if (row.state != SessionState::withdrawn || only_verifies) ids.push_back(row.session_id);
   if (ids.empty()) throw Error(fmt::format("{} holds no session yet", options.db));
   return ids;
 }
@@ -119,6 +132,10 @@ bool verify(const LogReader& reader, std::int64_t session_id) {
   const Verification found = verify_session(reader, session_id, [&](double done) {
     bar.update(done, fmt::format("{:.0f} %", 100 * done));
   });
+  if (found.withdrawn && !found.first) {
+    print("session {}: withdrawn: it has no data any more\n", session_id);
+    return true;
+  }
   const std::string verified =
       found.ended ? "verified" : fmt::format("verified up to event {}, unfinished", found.n_events);
   print("session {}: {}: {} events folded, {} rows in {} attempts compared; {}\n", session_id,
@@ -155,10 +172,19 @@ bool none_is_missing(const std::vector<std::int64_t>& ids) {
   return none;
 }
 
+void print_witness(const LogReader& reader, const std::string& head) {
+  if (head.empty()) return print("head of the log: {}\n", short_head(reader.head()));
+  const Witness witness = find_witness(reader, head);
+  print(
+      "witness {}: confirmed, session {} and all before it are as they were then; sealed since: "
+      "{}\n",
+      short_head(witness.seal.head), witness.seal.session_id, witness.n_since);
+}
+
 void verify_all(const LogReader& reader, const ReplayOptions& options) {
   bool same = true;
-  for (const std::string& fault : check_integrity(options.db)) {
-    print("the file is damaged: {}\n", fault);
+  for (const std::string& fault : faults_of_file(reader, options.db)) {
+    print("{}\n", fault);
     same = false;
   }
   try {
@@ -173,6 +199,7 @@ void verify_all(const LogReader& reader, const ReplayOptions& options) {
     print("first divergence: no trial: {}\n", error.what());
   }
   if (!same) throw Error(fmt::format("{} contradicts its events", options.db), ExitCode::diverged);
+  print_witness(reader, options.witness);
 }
 
 // The logged protocol and configuration with the changes.
@@ -293,6 +320,7 @@ void add_replay(Command& app) {
   Command command = app.add_command(
       "replay", "verify a log (exit 5: it differs), or recompute it otherwise",
       {"heft replay --db lab.db", "heft replay --db lab.db --session 3",
+       "heft replay --db lab.db --witness 1a2b3c4d5e6f",
        "heft replay --db lab.db --session 3 --simulator bullet-ea",
        "heft replay --db lab.db --set physics.friction=0.64",
        "heft replay --db lab.db --set physics.predict_s=0.05",
@@ -307,6 +335,9 @@ void add_replay(Command& app) {
   command.add_flag("--rerun", options->rerun, "run the trials again with the responder instead");
   command.add_flag("--json", options->json, "the responder's answers as JSON");
   command.add_flag("--tables", options->tables, "all tables instead of a summary");
+  command.add_option("--witness", &options->witness,
+                     "a head that was noted when a session ended: also verify that it and the "
+                     "sessions before it are complete and unchanged since");
   command.add_option("--simulator", &options->simulator,
                      "simulate the logged hand with this simulator, and compare lags and paths");
   add_settings(command, options->set,

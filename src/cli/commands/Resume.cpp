@@ -86,7 +86,7 @@ void add_resume(Command& app) {
                      "from here on; each trial is replayed with its own");
   command.add_option("--language", &options->again.language,
                      "of the participant's screens: en, fr, or a text FILE.toml");
-  add_elsewhere_options(command, options->again.backup, options->events);
+  add_elsewhere_options(command, options->again, options->events);
   command.group("Options");
   command.add_flag("--unblind", options->unblind,
                    "show the experimenter masses and conditions; it is logged");

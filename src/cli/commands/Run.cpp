@@ -85,8 +85,11 @@ SessionRequest request_of(const RunOptions& options) {
 std::vector<SessionRow> sessions_in(const std::string& db) {
   refuse_special_file(db);
   std::error_code unknown;
-  return std::filesystem::exists(db, unknown) ? LogReader(db).sessions()
-                                              : std::vector<SessionRow>{};
+  if (!std::filesystem::exists(db, unknown)) return {};
+  std::vector<SessionRow> sessions = LogReader(db).sessions();
+  std::erase_if(sessions,
+                [](const SessionRow& row) { return row.state == SessionState::withdrawn; });
+  return sessions;
 }
 
 // The plan's values for options that are not given.
@@ -99,6 +102,7 @@ void fill_from(const StudyPlan& plan, RunOptions& options) {
   if (!options.given.display && plan.display) options.given.display = NamedDisplay{*plan.display};
   fill(options.given.display_file, plan.display_file);
   if (options.given.backup.empty()) options.given.backup = plan.backup.value_or("");
+  if (options.given.run_by.empty()) options.given.run_by = plan.run_by;
 }
 
 void give_place(const StudyPlan& plan, const PlannedParticipant& planned, RunOptions& options) {
@@ -299,7 +303,7 @@ void add_run(Command& app) {
   command.add_option("--db", &options->db, "the log; sessions are added (default: heft.db)");
   command.add_seed(options->seed);
   add_session_options(command, options->given);
-  add_elsewhere_options(command, options->given.backup, options->events);
+  add_elsewhere_options(command, options->given, options->events);
   command.group("The protocol and the log");
   command.add_option("--simulator", &options->given.simulator, "instead of the protocol's");
   add_settings(command, options->given.settings,

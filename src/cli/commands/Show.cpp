@@ -86,9 +86,16 @@ void print_head(const SessionFacts& facts) {
     print("study {}: {} of {}{}{}\n", escaped_line(place->study), place->number,
           place->participants, place->group.empty() ? "" : ", group " + escaped_line(place->group),
           place->order.empty() ? "" : ", order " + escaped_line(place->order));
+  if (!facts.head.empty()) print("head of the log: {}\n", short_head(facts.head));
   print("{}; trials: {} completed, {} void; {} minutes of session time; started {}\n",
         name_of(facts.row.state), trials_text(facts), facts.n_void, minutes(facts.duration_s),
         header.started_utc);
+}
+
+void print_pictures(const CameraReport& pictures) {
+  if (pictures.n_shown + pictures.n_dropped == 0) return;
+  print("camera pictures: {} shown, {} of them late; {} dropped\n", pictures.n_shown,
+        pictures.n_late, pictures.n_dropped);
 }
 
 void print_progress(const std::vector<TrialRow>& trials) {
@@ -115,7 +122,8 @@ std::string in_short(const SessionConfig& setup) {
       escaped_line(to_text(setup.view)), often(setup.display_rate_hz));
   for (const auto& [name, value] : {std::pair{"input", to_text(setup.input)},
                                     {"display", to_text(setup.display)},
-                                    {"language", setup.language}})
+                                    {"language", setup.language},
+                                    {"operator", setup.run_by}})
     if (!value.empty()) reported += fmt::format(", {} {}", name, escaped_line(value));
   for (const ProtocolSetting& setting : setup.settings)
     reported += ", set " + escaped_line(to_text(setting));
@@ -141,6 +149,13 @@ void print_setups(const std::vector<LoggedSetup>& setups) {
   }
 }
 
+// Whole, unless another program wrote it.
+std::string readable(const std::string& text) {
+  constexpr std::size_t most = 1000;
+  if (text.size() <= most) return escaped_line(text);
+  return escaped_line(text.substr(0, most)) + fmt::format("... ({} bytes in all)", text.size());
+}
+
 void print_checks(const std::vector<LoggedEvent>& events) {
   bool any = false;
   for (const LoggedEvent& logged : events)
@@ -158,7 +173,7 @@ void print_course(const std::vector<LoggedEvent>& events) {
     if (!std::exchange(any, true)) print("\nwhat happened\n");
     const EventRow row = row_of(logged.event);
     print("  {} {}{}{}\n", minutes(row.t_s), name_of(row.kind), row.detail.empty() ? "" : ": ",
-          escaped_line(row.detail));
+          readable(row.detail));
   }
 }
 
@@ -166,7 +181,7 @@ void print_info(const SessionRow& row) {
   const auto reported = participant_reports(row);
   if (!reported.empty()) print("\nreported by the participant\n");
   for (const auto& [key, value] : reported)
-    print("  {}: {}\n", escaped_line(key), escaped_line(value));
+    print("  {}: {}\n", readable(key), readable(value));
 }
 
 // Columns only: the contents of files are long, and in the log.
@@ -217,7 +232,12 @@ void show(const std::string& db, std::optional<std::int64_t> session_id, bool js
   const Shown shown = shown_of(db, session_id);
   if (json)
     return fmt::print("{}\n", as_json(shown).dump(2, ' ', false, Json::error_handler_t::replace));
+  if (shown.facts.row.state == SessionState::withdrawn)
+    return print("session {}: its data were withdrawn ({}); head of the log: {}\n",
+                 shown.facts.row.session_id, shown.facts.row.header.run_options,
+                 short_head(shown.facts.head));
   print_head(shown.facts);
+  print_pictures(shown.facts.pictures);
   print_progress(shown.trials);
   print_setups(shown.setups);
   print_checks(shown.events);

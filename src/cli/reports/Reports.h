@@ -28,7 +28,9 @@ struct SessionFacts {
   int n_completed = 0, n_void = 0;       ///< attempts
   std::optional<double> planned_trials;  ///< approximately; none: the protocol cannot be read
   double duration_s = 0;                 ///< session time
+  CameraReport pictures;                 ///< of all attempts
   std::optional<LoggedPlace> place;      ///< in a study
+  std::string head;                      ///< of the log, when the session was last sealed
 };
 
 SessionFacts facts_of(const LogReader& reader, const SessionRow& row);

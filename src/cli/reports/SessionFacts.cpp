@@ -30,10 +30,18 @@ SessionFacts facts_of(const LogReader& reader, const SessionRow& row) {
     facts.n_completed += trial.status == TrialStatus::completed ? 1 : 0;
     facts.n_void += trial.status == TrialStatus::voided ? 1 : 0;
   }
-  if (const auto events = reader.events(row.session_id); !events.empty())
-    facts.duration_s = events.back().event.t_s;
+  for (const LoggedEvent& logged : reader.events(row.session_id)) {
+    facts.duration_s = logged.event.t_s;
+    if (const auto* report = logged.event.as<CameraReport>()) {
+      facts.pictures.n_shown += report->n_shown;
+      facts.pictures.n_dropped += report->n_dropped;
+      facts.pictures.n_late += report->n_late;
+    }
+  }
   if (is_unfinished(row.state)) facts.planned_trials = planned_trials(reader, row);
   facts.place = place_of(row.header.participant_info);
+  for (const Seal& seal : reader.seals())
+    if (seal.session_id == row.session_id) facts.head = seal.head;
   return facts;
 }
 
@@ -56,6 +64,10 @@ nlohmann::ordered_json as_json(const SessionFacts& facts) {
                               {"planned_trials", nullptr},
                               {"started_utc", header.started_utc},
                               {"duration_s", facts.duration_s},
+                              {"n_pictures", facts.pictures.n_shown},
+                              {"n_dropped", facts.pictures.n_dropped},
+                              {"n_late", facts.pictures.n_late},
+                              {"head", facts.head},
                               {"study", nullptr}};
   if (facts.planned_trials) json["planned_trials"] = *facts.planned_trials;
   if (const auto& place = facts.place)

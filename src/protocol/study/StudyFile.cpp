@@ -172,6 +172,8 @@ class StudyReader {
     read_path(reader_, "display_file", file_, plan_.display_file);
     read_path(reader_, "db", file_, plan_.db);
     read_path(reader_, "backup", file_, plan_.backup);
+    reader_.read("operator", plan_.run_by);
+    if (!plan_.run_by.empty()) check_line(reader_, "operator", plan_.run_by);
     study_.protocol = protocol.value_or("");
   }
 

@@ -41,6 +41,7 @@ struct StudyPlan {
   std::vector<BlockOrder> orders;  ///< at least one
   std::optional<int> display;
   std::optional<std::string> display_file, db, backup;  ///< paths
+  std::string run_by;                                   ///< the experimenter; empty: unknown
 };
 
 /// The plan for one participant.

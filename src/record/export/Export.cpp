@@ -12,7 +12,7 @@ ExportCell text_cell(const std::string& text) {
 
 void write_dictionary(const ExportSource& source, const std::vector<ExportTable>& tables,
                       ExportFolder& folder) {
-  RowFile file(folder.place("dictionary.csv"), RowFile::Kind::csv);
+  RowFile file = folder.rows("dictionary.csv", RowFile::Kind::csv);
   std::int64_t n = 0;
   std::vector<ExportColumn> header;
   for (const char* name : {"file", "column", "unit", "meaning", "levels"})
@@ -42,7 +42,7 @@ std::vector<ExportedFile> export_logs(const ExportRequest& request,
                                       const std::function<void(double)>& progress) {
   refuse_filled_folder(request.folder);
   const ExportSource source(request.logs, request.key);
-  ExportFolder folder(request.folder);
+  ExportFolder folder(request.folder, request.is_verified);
   switch (request.format) {
     case ExportFormat::csv:
       export_csv(source, folder, progress);

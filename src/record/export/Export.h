@@ -35,6 +35,7 @@ struct ExportRequest {
   ExportFormat format = ExportFormat::csv;
   std::string folder;                   ///< new or empty; created if missing
   std::optional<std::string> key = {};  ///< of the pseudonyms; none: no pseudonyms
+  bool is_verified = true;              ///< false: every table has a column `unverified`
 };
 
 /// Exports all sessions of the logs; the column `log` names the log. `person` is the participant,

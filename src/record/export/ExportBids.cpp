@@ -132,7 +132,7 @@ class BidsExport {
 
   void write_description() {
     write_json(folder_, "dataset_description.json", description("Perceived mass", "raw"));
-    folder_.write_text("README", readme_of("BIDS"));
+    folder_.write_text("README", readme_of("BIDS", folder_));
   }
 
   static ExportColumn participant_id() {
@@ -148,7 +148,7 @@ class BidsExport {
     std::vector<ExportColumn> header{
         participant_id(), {"n_sessions", "", "number of sessions of the person", "", ""}};
     header.insert(header.end(), answers.columns.begin(), answers.columns.end());
-    RowFile file(folder_.place("participants.tsv"), RowFile::Kind::tsv);
+    RowFile file = folder_.rows("participants.tsv", RowFile::Kind::tsv);
     file.header(header);
     for (const BidsPerson& person : people) {
       ExportCells row{text("sub-" + person.label), text(std::to_string(person.sessions.size()))};
@@ -175,7 +175,7 @@ class BidsExport {
         "sessions", "", "", "", {{"session_id", "", "session's label, as in file names", "", ""}}};
     for (const ExportColumn& column : source_.columns(table)) described.columns.push_back(column);
     const std::string name = fmt::format("sub-{0}/sub-{0}_sessions", person.label);
-    RowFile file(folder_.place(name + ".tsv"), RowFile::Kind::tsv);
+    RowFile file = folder_.rows(name + ".tsv", RowFile::Kind::tsv);
     file.header(described.columns);
     for (const BidsSession& session : person.sessions)
       source_.each_row(table, session.log, where_session(session), [&](const ExportCells& cells) {
@@ -201,7 +201,7 @@ class BidsExport {
 
   void write_rows(const ExportTable& table, const BidsSession& session,
                   const std::string& condition, const std::string& name) {
-    RowFile file(folder_.place(name), RowFile::Kind::tsv);
+    RowFile file = folder_.rows(name, RowFile::Kind::tsv);
     file.header(table.columns);
     std::int64_t n = 0;
     source_.each_row(table, session.log, condition, [&](const ExportCells& cells) {
@@ -234,7 +234,7 @@ class BidsExport {
         "",
         {participant_id(), {"session_id", "", "session's label, as in file names", "", ""}}};
     for (const ExportColumn& column : table.columns) described.columns.push_back(column);
-    RowFile file(folder_.place("derivatives/heft/estimates.tsv"), RowFile::Kind::tsv);
+    RowFile file = folder_.rows("derivatives/heft/estimates.tsv", RowFile::Kind::tsv);
     file.header(described.columns);
     std::int64_t n = 0;
     for (const BidsPerson& person : people)

@@ -38,13 +38,14 @@ void make_folder(const fs::path& folder) {
 }
 }  // namespace
 
-RowFile::RowFile(const fs::path& path, Kind kind)
-    : path_(path), kind_(kind), file_(path, std::ios::binary) {}
+RowFile::RowFile(const fs::path& path, Kind kind, bool is_verified)
+    : path_(path), kind_(kind), is_verified_(is_verified), file_(path, std::ios::binary) {}
 
 void RowFile::header(const std::vector<ExportColumn>& columns) {
   std::vector<std::string> names;
   for (const ExportColumn& column : columns)
     names.push_back(shown({ExportCell::Kind::text, column.name}));
+  if (!is_verified_) names.emplace_back("unverified");
   line(names);
 }
 
@@ -52,6 +53,7 @@ void RowFile::row(std::span<const ExportCell> cells) {
   std::vector<std::string> texts;
   texts.reserve(cells.size());
   for (const ExportCell& cell : cells) texts.push_back(shown(cell));
+  if (!is_verified_) texts.emplace_back("1");
   line(texts);
 }
 
@@ -75,7 +77,8 @@ std::string RowFile::shown(const ExportCell& cell) const {
   return cell.text.empty() ? "n/a" : tsv_cell(cell.text);
 }
 
-ExportFolder::ExportFolder(const std::string& folder) : folder_(folder) {
+ExportFolder::ExportFolder(const std::string& folder, bool is_verified)
+    : folder_(folder), is_verified_(is_verified) {
   refuse_filled_folder(folder);
   make_folder(folder_);
   write_text(
@@ -88,6 +91,15 @@ fs::path ExportFolder::place(const std::string& name) {
   const fs::path path = folder_ / name;
   make_folder(path.parent_path());
   return path;
+}
+
+RowFile ExportFolder::rows(const std::string& name, RowFile::Kind kind) {
+  return {place(name), kind, is_verified_};
+}
+
+std::string ExportFolder::warning() const {
+  if (is_verified_) return "";
+  return " NOT VERIFIED: whether the log was changed was not checked (--unverified).";
 }
 
 void ExportFolder::write_text(const std::string& name, const std::string& text) {
@@ -111,14 +123,14 @@ void ExportProgress::row() {
     report_(std::min(1.0, static_cast<double>(n_done_) / static_cast<double>(n_all_)));
 }
 
-std::string readme_of(const std::string& standard) {
+std::string readme_of(const std::string& standard, const ExportFolder& folder) {
   return fmt::format(
       "# Perceived mass of virtual cubes\n\nExported by heft {} as {}. Participants pushed virtual "
       "cubes with a hand-held effector and judged their masses. Times are in seconds since the "
       "start of the session, masses in grams. Trials whose status is not `completed` were "
       "presented "
-      "again. Trials with `is_practice` 1 are practice and excluded from results.\n",
-      HEFT_VERSION, standard);
+      "again. Trials with `is_practice` 1 are practice and excluded from results.{}\n",
+      HEFT_VERSION, standard, folder.warning());
 }
 
 std::string analysis_script() {
@@ -137,7 +149,7 @@ std::vector<ExportTable> write_tables(const ExportSource& source, ExportFolder& 
   ExportProgress count(n_rows, progress);
   for (const ExportTable& table : tables) {
     const std::string name = fmt::format("{}{}{}", begin, table.name, end);
-    RowFile file(folder.place(name), RowFile::Kind::csv);
+    RowFile file = folder.rows(name, RowFile::Kind::csv);
     file.header(source.columns(table));
     std::int64_t n = 0;
     source.each_row(table, [&](const ExportCells& cells) {

@@ -17,7 +17,8 @@ namespace heft {
 class RowFile {
  public:
   enum class Kind { csv, tsv };
-  RowFile(const std::filesystem::path& path, Kind kind);
+  /// @param is_verified false: a last column `unverified` with the value 1
+  RowFile(const std::filesystem::path& path, Kind kind, bool is_verified);
 
   void header(const std::vector<ExportColumn>& columns);
   void row(std::span<const ExportCell> cells);
@@ -30,24 +31,30 @@ class RowFile {
 
   std::filesystem::path path_;
   Kind kind_;
+  bool is_verified_;
   std::ofstream file_;
 };
 
 class ExportFolder {
  public:
   /// Creates the folder, with a file that marks it as incomplete.
-  explicit ExportFolder(const std::string& folder);
+  ExportFolder(const std::string& folder, bool is_verified);
 
   /// Path of a new file; creates its parent folders.
   std::filesystem::path place(const std::string& name);
+  RowFile rows(const std::string& name, RowFile::Kind kind);
   void write_text(const std::string& name, const std::string& text);
   void wrote(const std::string& name, std::int64_t n_rows) { files_.push_back({name, n_rows}); }
+
+  /// A sentence for descriptions; empty if the logs were verified.
+  std::string warning() const;
 
   /// Removes the mark.
   std::vector<ExportedFile> finished();
 
  private:
   std::filesystem::path folder_;
+  bool is_verified_;
   std::vector<ExportedFile> files_;
 };
 
@@ -78,7 +85,7 @@ void export_bids(const ExportSource& source, ExportFolder& folder,
                  const std::function<void(double)>& progress);
 
 /// The README of a dataset.
-std::string readme_of(const std::string& standard);
+std::string readme_of(const std::string& standard, const ExportFolder& folder);
 
 /// The R script that reads an export and prints its figures and models; installed with the program.
 /// @throws Error when it is missing

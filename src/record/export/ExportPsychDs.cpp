@@ -31,7 +31,8 @@ void add_variable(ordered_json& variables, const ExportColumn& column, const std
   variables.push_back(std::move(variable));
 }
 
-std::string description(const ExportSource& source, const std::vector<ExportTable>& tables) {
+std::string description(const ExportSource& source, const std::vector<ExportTable>& tables,
+                        const ExportFolder& folder) {
   ordered_json variables = ordered_json::array();
   std::string what =
       "Perceived mass of virtual cubes, exported by heft " HEFT_VERSION ". Rows of each table: ";
@@ -44,7 +45,7 @@ std::string description(const ExportSource& source, const std::vector<ExportTabl
   const ordered_json json{{"@context", "https://schema.org/"},
                           {"@type", "Dataset"},
                           {"name", "heft"},
-                          {"description", what + "."},
+                          {"description", what + "." + folder.warning()},
                           {"variableMeasured", variables}};
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
@@ -54,8 +55,8 @@ void export_psych_ds(const ExportSource& source, ExportFolder& folder,
                      const std::function<void(double)>& progress) {
   const std::string script = analysis_script();
   const auto tables = write_tables(source, folder, "data/description-", "_data.csv", progress);
-  folder.write_text("dataset_description.json", description(source, tables));
-  folder.write_text("README.md", readme_of("Psych-DS"));
+  folder.write_text("dataset_description.json", description(source, tables, folder));
+  folder.write_text("README.md", readme_of("Psych-DS", folder));
   folder.write_text("analysis/analysis.R", script);
 }
 

@@ -36,6 +36,7 @@ person_of <- function(table) {
 trials$person <- person_of(trials)
 choices$person <- person_of(choices)
 estimates$person <- person_of(estimates)
+if ("unverified" %in% names(trials)) message("NOT VERIFIED: it was not checked whether the log was changed")
 completed <- trials[trials$status == "completed" & trials$is_practice == 0, ]
 
 figures <- data.frame()

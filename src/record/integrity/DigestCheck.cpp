@@ -6,6 +6,7 @@
 
 #include "base/Error.h"
 #include "record/integrity/Digests.h"
+#include "record/integrity/Seals.h"
 #include "record/reader/LogReader.h"
 #include "record/schema/Cells.h"
 #include "record/schema/EventRow.h"
@@ -57,7 +58,10 @@ void describe(BrokenDigest& broken, SQLite::Statement& query, const std::string&
 class DigestCheck {
  public:
   DigestCheck(SQLite::Database& database, std::string file, std::int64_t session_id)
-      : database_(database), file_(std::move(file)), session_id_(session_id) {}
+      : database_(database),
+        file_(std::move(file)),
+        session_id_(session_id),
+        seals_(database, session_id) {}
 
   std::optional<BrokenDigest> first_broken();
 
@@ -79,6 +83,7 @@ class DigestCheck {
   std::int64_t session_id_;
   std::string start_;  ///< start of all chains
   RowDigest digest_;
+  SealCheck seals_;
 };
 
 std::optional<BrokenDigest> DigestCheck::first_broken() {
@@ -89,7 +94,10 @@ std::optional<BrokenDigest> DigestCheck::first_broken() {
   start.executeStep();
   start_ = start.getColumn(0).getString();
   auto event = broken_event(), frame = broken_frame();
-  if (!event && !frame) return broken_counts();
+  if (!event && !frame) {
+    auto counts = broken_counts();
+    return counts ? counts : seals_.first_broken();
+  }
   if (!event || (frame && is_earlier(*frame, *event))) return frame;
   return event;
 }
@@ -155,8 +163,10 @@ std::optional<BrokenDigest> DigestCheck::broken_event() {
   query.bind(1, session_id_);
   static const int n_cells = n_columns<EventRow>();
   std::string chain = start_;
-  while (query.executeStep())
+  while (query.executeStep()) {
     if (auto broken = broken_link(query, "event", n_cells, chain)) return broken;
+    seals_.event(chain);
+  }
   return std::nullopt;
 }
 
@@ -168,11 +178,14 @@ std::optional<BrokenDigest> DigestCheck::broken_frame() {
   std::map<std::string, std::optional<std::string>> chains;  // none: already broken
   std::optional<BrokenDigest> first;
   while (query.executeStep()) {
-    auto& chain =
-        chains.try_emplace(query.getColumn(attempt_cell).getString(), start_).first->second;
+    const std::string attempt = query.getColumn(attempt_cell);
+    auto& chain = chains.try_emplace(attempt, start_).first->second;
     if (!chain) continue;
     const auto broken = broken_link(query, "frame", n_cells, *chain);
-    if (!broken) continue;
+    if (!broken) {
+      seals_.frame(attempt, *chain);
+      continue;
+    }
     chain.reset();
     if (!first || is_earlier(*broken, *first)) first = broken;
   }

@@ -9,6 +9,7 @@
 
 #include "base/Error.h"
 #include "record/integrity/Digests.h"
+#include "record/integrity/Seals.h"
 #include "record/reader/ReadOnlyDatabase.h"
 #include "record/schema/Binding.h"
 #include "record/schema/Cells.h"
@@ -55,11 +56,15 @@ std::string with_setups(std::string_view table) {
 class LogReader::Impl {
  public:
   explicit Impl(const std::string& path) : path_(path), database_(open_for_reading(path)) {
-    has_tables_ = holds_log(*database_, path_);
-    if (!has_tables_) return;
-    // All reads see one snapshot: a transaction that the first read starts.
-    database_->exec("BEGIN");
-    database_->execAndGet("SELECT count(*) FROM session");
+    try {
+      has_tables_ = holds_log(*database_, path_);
+      if (!has_tables_) return;
+      // All reads see one snapshot: a transaction that the first read starts.
+      database_->exec("BEGIN");
+      database_->execAndGet("SELECT count(*) FROM session");
+    } catch (const SQLite::Exception& error) {
+      refuse_damaged("the sessions", error);
+    }
   }
 
   /// Converts every row of a query with `make`. The first column is the row's id.
@@ -88,6 +93,18 @@ class LogReader::Impl {
     return heft::first_broken_digest(*database_, path_, session_id);
   } catch (const SQLite::Exception& error) {
     refuse_damaged("the digests", error);
+  }
+
+  std::vector<Seal> seals() const try {
+    return has_tables_ ? seals_in(*database_) : std::vector<Seal>{};
+  } catch (const SQLite::Exception& error) {
+    refuse_damaged("the seals", error);
+  }
+
+  std::optional<BrokenDigest> first_broken_seal() const try {
+    return has_tables_ ? heft::first_broken_seal(*database_) : std::nullopt;
+  } catch (const SQLite::Exception& error) {
+    refuse_damaged("the seals", error);
   }
 
   std::vector<SessionRow> sessions(const std::string& condition) const {
@@ -277,6 +294,19 @@ FrameCounts LogReader::frame_counts(std::int64_t session_id) const {
       "FROM frame WHERE trial_id IN (SELECT trial_id FROM trial WHERE session_id = ?1)",
       session_id);
   return counts.empty() ? FrameCounts{} : counts.front();
+}
+
+std::vector<Seal> LogReader::seals() const {
+  return impl_->seals();
+}
+
+std::string LogReader::head() const {
+  const auto all = seals();
+  return all.empty() ? "" : all.back().head;
+}
+
+std::optional<BrokenDigest> LogReader::first_broken_seal() const {
+  return impl_->first_broken_seal();
 }
 
 std::vector<std::string> LogReader::foreign_objects() const {

@@ -48,13 +48,35 @@ struct FrameCounts {
 /// The first row whose digest does not match: the row was changed, or rows directly before it were
 /// changed together with their digests, removed, inserted or swapped.
 struct BrokenDigest {
-  std::string table;  ///< session (its header), event or frame
+  std::string table;  ///< session (its header), event, frame or seal
   std::int64_t row_id = 0;
   int attempt_index = 0;  ///< 0: outside attempts, or of an unknown trial
   double t_s = 0;         ///< the row's current value; 0 for a session
   std::string logged, recomputed;
   std::string row;     ///< for messages: `the event "note" of attempt 2 at 12.500 s`
   std::string damage;  ///< why the row is invalid; empty if it is valid
+};
+
+/// What a log contained when a session had ended or was left (record/integrity/Seals.h).
+struct Seal {
+  std::int64_t seal_id = 0;  ///< from 1
+  std::int64_t session_id = 0;
+  std::string state;
+  std::int64_t n_events = 0, n_frames = 0;
+  std::string info_digest, digest;
+  std::string head;  ///< digest of this seal and of all before it
+};
+
+/// The first characters of a head, as they are printed: enough to recognize it.
+inline std::string short_head(const std::string& head) {
+  constexpr std::size_t printed = 12;
+  return head.substr(0, printed);
+}
+
+/// Whether logs were verified before their figures are shown.
+struct LogIntegrity {
+  bool is_verified = true;
+  std::string words;  ///< "verified, head 1a2b3c4d5e6f"
 };
 
 /// A snapshot of the log at the time of opening. An empty file, as a crash during creation leaves
@@ -95,13 +117,22 @@ class LogReader {
 
   FrameCounts frame_counts(std::int64_t session_id) const;
 
+  /// In the order of sealing; the last one has the log's head.
+  std::vector<Seal> seals() const;
+  /// The log's head; empty if no session was sealed.
+  std::string head() const;
+
+  /// The first fault in the chain of seals: a session that was removed, added, renumbered or
+  /// swapped. The session's own contents are compared by first_broken_digest().
+  std::optional<BrokenDigest> first_broken_seal() const;
+
   /// Differences of the file from a log; see schema::foreign_objects.
   std::vector<std::string> foreign_objects() const;
 
   /// Checks the digests of the session's header, participant's answers, events and frames, in that
-  /// order, events and frames by time. Changed, removed, inserted, swapped and invalid rows are
-  /// found. Not found: changes of the session's state and of the other tables, which follow from
-  /// the events, and edits with all later digests recomputed.
+  /// order, events and frames by time, then its seals. Changed, removed, inserted, swapped and
+  /// invalid rows are found. Not found: changes of the session's state and of the other tables,
+  /// which follow from the events, and edits with all later digests recomputed.
   /// @throws Error if there is no such session or pages of the file are damaged
   std::optional<BrokenDigest> first_broken_digest(std::int64_t session_id) const;
 

@@ -200,15 +200,29 @@ std::string text_of(const Event& event) {
   return text;
 }
 
-std::string event_line(const Event& event, const AnnouncedEvent& about) {
-  constexpr std::size_t longest_detail = 240, longest_name = 60;  // bytes; escaped at most sixfold
-  const EventRow row = row_of(event);
+namespace {
+Json line_about(const AnnouncedEvent& about, double t_s, std::string_view kind) {
+  constexpr std::size_t longest_name = 60;  // bytes; escaped at most sixfold
   Json line;
-  line["t_s"] = event.t_s;
+  line["t_s"] = t_s;
   line["utc"] = about.utc;
   line["session"] = about.session_id;
   line["participant"] = truncated(about.participant, longest_name);
-  line["kind"] = name_of(row.kind);
+  line["kind"] = kind;
+  return line;
+}
+}  // namespace
+
+std::string sealed_line(const AnnouncedEvent& about, double t_s, const std::string& head) {
+  Json line = line_about(about, t_s, "sealed");
+  line["head"] = head;
+  return line.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+std::string event_line(const Event& event, const AnnouncedEvent& about) {
+  constexpr std::size_t longest_detail = 240;
+  const EventRow row = row_of(event);
+  Json line = line_about(about, event.t_s, name_of(row.kind));
   if (about.plan) {
     line["trial"] = about.plan->trial_number;
     line["attempt"] = about.plan->attempt;

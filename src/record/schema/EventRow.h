@@ -58,6 +58,9 @@ struct AnnouncedEvent {
 /// levels and conditions. Long details are truncated: at most 2000 bytes in total.
 std::string event_line(const Event& event, const AnnouncedEvent& about);
 
+/// {"t_s":812.5,"utc":"...","session":1,"participant":"P07","kind":"sealed","head":"1a2b..."}
+std::string sealed_line(const AnnouncedEvent& about, double t_s, const std::string& head);
+
 /// JSON object with all columns and the contents of files.
 std::string to_json(const SessionConfig& setup);
 

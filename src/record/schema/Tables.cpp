@@ -82,7 +82,11 @@ std::string tables() {
              "frame",
              fmt::format("frame_id INTEGER PRIMARY KEY,\n  {},\n  trial_id INTEGER", of_session),
              std::string(",\n  digest TEXT NOT NULL") + of_session_and_trial) +
-         "CREATE INDEX frame_by_trial ON frame (trial_id, session_id);\n";
+         "CREATE INDEX frame_by_trial ON frame (trial_id, session_id);\n"
+         "CREATE TABLE seal (\n  seal_id INTEGER PRIMARY KEY,\n  session_id INTEGER NOT NULL,\n  "
+         "state TEXT NOT NULL REFERENCES list_state,\n  n_events INTEGER NOT NULL,\n  n_frames "
+         "INTEGER NOT NULL,\n  info_digest TEXT NOT NULL,\n  digest TEXT NOT NULL,\n  head TEXT "
+         "NOT NULL\n) STRICT;\n";
 }
 
 // v_trial: attempts with their configuration. v_jnd: estimates of stopped staircases. v_sorting:

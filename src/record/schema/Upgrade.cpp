@@ -1,10 +1,11 @@
-// Upgrades logs of versions 5 and 6. Digests are taken over values, not over names of columns, so
+// Upgrades logs of versions 5 to 7. Digests are taken over values, not over names of columns, so
 // they stay valid.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
 
 #include "base/Error.h"
+#include "record/integrity/Seals.h"
 #include "record/schema/RowSql.h"
 #include "record/schema/Schema.h"
 
@@ -75,6 +76,12 @@ void rename_to_version_7(SQLite::Database& database) {
   database.exec("DELETE FROM list_censored WHERE name = 'unsettled'");
 }
 
+// Version 8 added the last column, `operator`.
+void add_operator(SQLite::Database& database) {
+  database.exec(made_by("table seal"));
+  rebuild_table(database, "setup", "*, NULL");
+}
+
 void extend_closed_lists(SQLite::Database& database) {
   for (const ClosedList& list : closed_lists())
     for (const std::string_view name : list.names)
@@ -84,12 +91,15 @@ void extend_closed_lists(SQLite::Database& database) {
 void rebuild(SQLite::Database& database) {
   refuse_foreign(unknown_objects(database, {"table list_finish"}));
   drop_views(database);
-  if (database.execAndGet("PRAGMA user_version").getInt() == 5) {
+  const int version = database.execAndGet("PRAGMA user_version").getInt();
+  if (version <= 5) {
     add_answer_values(database);
     renew_words(database);
   }
-  rename_to_version_7(database);
+  if (version <= 6) rename_to_version_7(database);
+  add_operator(database);
   extend_closed_lists(database);
+  seal_sessions(database);
   database.exec(views);
   database.exec(fmt::format("PRAGMA user_version = {}", current_version));
   refuse_foreign(foreign_objects(database));

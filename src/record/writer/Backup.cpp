@@ -42,6 +42,16 @@ void make_backup_folder(const fs::path& folder) {
   fs::permissions(folder, fs::perms::owner_all, error);  // ignored on disks without permissions
 }
 
+// Copies of this session that were cut off: the writer's lock of a session that is backed up is
+// taken, so nobody else is making one.
+void remove_cut_off(const fs::path& folder, const std::string& session) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(session) && (name.ends_with(".part") || name.ends_with(".part-journal")))
+      fs::remove(entry.path());
+  }
+}
+
 // Creates NAME.db.part for the first free name. @return the path of NAME.db
 std::string make_part(const fs::path& folder, const std::string& name) {
   for (int i = 1;; ++i) {
@@ -103,7 +113,7 @@ class Part {
 }  // namespace
 
 std::string backup_name(const std::string& participant, std::int64_t session_id,
-                        const std::string& utc) {
+                        const std::string& utc, const std::string& head) {
   constexpr std::size_t longest = 60;
   std::string who;
   for (const char c : participant.substr(0, longest))
@@ -111,7 +121,8 @@ std::string backup_name(const std::string& participant, std::int64_t session_id,
   std::string when;
   for (const char c : utc.substr(0, utc.find('.')))
     if (c != '-' && c != ':' && c != 'Z') when += c;
-  return fmt::format("{}_session{}_{}Z", who, session_id, when);
+  return fmt::format("{}_session{}_{}Z{}{}", who, session_id, when, head.empty() ? "" : "_",
+                     short_head(head));
 }
 
 void require_backup_folder(const std::string& folder) try {
@@ -128,8 +139,12 @@ void require_backup_folder(const std::string& folder) try {
 
 std::string back_up(const std::string& db, const std::string& folder, std::int64_t session_id) try {
   make_backup_folder(folder);
-  const std::string who = LogReader(db).session(session_id).header.participant;
-  const std::string path = make_part(folder, backup_name(who, session_id, utc_now()));
+  const LogReader log(db);
+  const std::string who = log.session(session_id).header.participant;
+  const std::string name = backup_name(who, session_id, utc_now(), log.head());
+  constexpr std::string_view until_time = "_session";
+  remove_cut_off(folder, name.substr(0, name.find('_', name.rfind(until_time) + until_time.size())));
+  const std::string path = make_part(folder, name);
   const std::string made = path + ".part";
   Part part(made);
   copy_into(db, made);

@@ -6,9 +6,10 @@
 
 namespace heft {
 
-/// "P07_session7_20261122T093000Z"; special characters become "_".
+/// "P07_session7_20261122T093000Z_1a2b3c4d5e6f"; special characters become "_".
+/// @param head the log's; empty: without it
 std::string backup_name(const std::string& participant, std::int64_t session_id,
-                        const std::string& utc);
+                        const std::string& utc, const std::string& head);
 
 /// Creates the folder if missing and tests, before a session, that files can be written there.
 /// @throws Error if it cannot be created or written

@@ -9,6 +9,7 @@
 
 #include "base/Error.h"
 #include "base/files/Printable.h"
+#include "record/integrity/Seals.h"
 #include "record/schema/Schema.h"
 #include "record/writer/Failures.h"
 #include "record/writer/LogFile.h"
@@ -43,6 +44,7 @@ class SessionLog::Impl {
   void add_frame(const FrameRow& frame);
   void add_info(const std::string& key, const std::string& value);
   void flush();
+  std::string seal();
   std::int64_t session_id() const { return session_id_; }
 
  private:
@@ -72,6 +74,7 @@ void SessionLog::Impl::start(const SessionHeader& header,
   try {
     SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
     schema::create(file_.database());
+    seal_sessions(file_.database());
     session_id_ = writer_.write_session(header);
     if (first) {
       writer_.write(session_id_, *first);
@@ -90,6 +93,7 @@ void SessionLog::Impl::reopen(std::int64_t session_id) {
     SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
     schema::create(file_.database());
     check_session(session_id);
+    seal_sessions(file_.database());
     transaction.commit();
   } catch (const SQLite::Exception& error) {
     throw write_error("the reopened session", file_, error, "try again");
@@ -140,6 +144,18 @@ void SessionLog::Impl::add_info(const std::string& key, const std::string& value
 void SessionLog::Impl::flush() {
   refuse_after_failure();
   commit_or_fail(counted(waiting_));
+}
+
+std::string SessionLog::Impl::seal() {
+  flush();
+  try {
+    SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
+    std::string head = heft::seal(file_.database(), session_id_);
+    transaction.commit();
+    return head;
+  } catch (const SQLite::Exception& error) {
+    fail("the session's seal", error);
+  }
 }
 
 void SessionLog::Impl::refuse_after_failure() const {
@@ -259,6 +275,10 @@ void SessionLog::flush() {
   impl_->flush();
 }
 
+std::string SessionLog::seal() {
+  return impl_->seal();
+}
+
 class SessionArchive::Impl {
  public:
   explicit Impl(const std::string& path) : file_(path), writer_(file_.database()) {
@@ -269,9 +289,11 @@ class SessionArchive::Impl {
   std::int64_t store(const RecordedSession& session) {
     SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
     schema::create(file_.database());
+    if (!std::exchange(are_sealed_, true)) seal_sessions(file_.database());
     const std::int64_t session_id = writer_.write_session(session.header());
     for (const RecordedEntry& entry : session.entries()) writer_.write(session_id, entry);
     writer_.write_counts(session_id);
+    seal(file_.database(), session_id);
     transaction.commit();
     file_.check_in_place();
     return session_id;
@@ -290,6 +312,7 @@ class SessionArchive::Impl {
  private:
   LogFile file_;
   RowWriter writer_;
+  bool are_sealed_ = false;  ///< the sessions that were in the log
 };
 
 SessionArchive::SessionArchive(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}

@@ -51,6 +51,11 @@ class SessionLog final : public EventSink {
   /// @throws Error as append()
   void flush() override;
 
+  /// Writes everything buffered and seals the session, when it has ended or is left.
+  /// @return the log's head (record/integrity/Seals.h)
+  /// @throws Error as append()
+  std::string seal();
+
  private:
   class Impl;
   explicit SessionLog(std::unique_ptr<Impl> impl);

@@ -1,0 +1,161 @@
+#include "record/writer/Withdrawal.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/Error.h"
+#include "base/files/TextFile.h"
+#include "record/integrity/Digests.h"
+#include "record/integrity/Seals.h"
+#include "record/reader/LogReader.h"
+#include "record/reader/ReadOnlyDatabase.h"
+#include "record/schema/Binding.h"
+#include "record/schema/RowSql.h"
+#include "record/schema/Schema.h"
+#include "record/writer/Failures.h"
+#include "record/writer/LogFile.h"
+
+namespace heft {
+
+namespace fs = std::filesystem;
+
+namespace {
+// What is kept of the session's header.
+SessionHeader tombstone_of(SQLite::Database& database, std::int64_t session_id,
+                           const std::string& when_utc) {
+  SQLite::Statement query(
+      database,
+      "SELECT protocol_name, purpose, heft_version, log_version FROM session WHERE session_id = ?");
+  query.bind(1, session_id);
+  query.executeStep();
+  SessionHeader kept;
+  kept.protocol_name = query.getColumn(0).getString();
+  kept.purpose = named<Purpose>(query.getColumn(1).getString()).value_or(Purpose::main);
+  kept.heft_version = query.getColumn(2).getString();
+  kept.log_version = query.getColumn(3).getInt();
+  kept.protocol_sha256 = sha256("");
+  kept.run_options = nlohmann::json{{"withdrawn_utc", when_utc}}.dump();
+  return kept;
+}
+
+void remove_rows(SQLite::Database& database, std::int64_t session_id) {
+  const auto remove = [&](const char* sql) {
+    SQLite::Statement statement(database, sql);
+    run(statement, session_id);
+  };
+  for (const char* table : {"cube", "answer"})
+    remove(fmt::format("DELETE FROM {} WHERE trial_id IN (SELECT trial_id FROM trial WHERE "
+                       "session_id = ?)",
+                       table)
+               .c_str());
+  for (const char* table : {"frame", "event", "reversal", "estimate", "participant_parameter",
+                            "participant_info", "trial", "setup"})
+    remove(fmt::format("DELETE FROM {} WHERE session_id = ?", table).c_str());
+}
+
+void write_tombstone(SQLite::Database& database, std::int64_t session_id,
+                     const SessionHeader& kept) {
+  RowDigest digest;
+  digest.begin("session", "");
+  std::string assigned;
+  for (const std::string& column : sql_of<SessionHeader>().names) assigned += column + " = ?, ";
+  SQLite::Statement update(
+      database, fmt::format("UPDATE session SET {}n_events = 0, n_frames = 0, info_digest = '{}', "
+                            "state = 'withdrawn', digest = ? WHERE session_id = {}",
+                            assigned, info_digest(database, session_id), session_id));
+  Binding row(update);
+  row.also_into(digest);
+  bind_row(row, kept);
+  row.run_with_digest();
+}
+
+std::string withdraw(LogFile& file, std::int64_t session_id, const std::string& when_utc) {
+  SQLite::Database& database = file.database();
+  // Removed pages are overwritten, not only marked as free.
+  database.exec("PRAGMA secure_delete = ON");
+  SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+  seal_sessions(database);
+  const SessionHeader kept = tombstone_of(database, session_id, when_utc);
+  remove_rows(database, session_id);
+  write_tombstone(database, session_id, kept);
+  std::string head = seal(database, session_id);
+  transaction.commit();
+  database.exec("VACUUM");
+  database.exec("PRAGMA wal_checkpoint(TRUNCATE)");
+  file.check_in_place();
+  return head;
+}
+
+bool holds_session(const fs::path& file, const std::string& participant,
+                   const std::string& started_utc) {
+  SQLite::Database other(file.string(), SQLite::OPEN_READONLY);
+  distrust(other);
+  SQLite::Statement query(other, "SELECT 1 FROM session WHERE participant = ? AND started_utc = ?");
+  Binding binding(query, participant, started_utc);
+  return binding.step();
+}
+
+// As a cell or a word: not a part of another id.
+bool names_participant(const std::string& text, const std::string& participant) {
+  const auto is_outside = [&](std::size_t at) {
+    return at >= text.size() || (std::isalnum(static_cast<unsigned char>(text[at])) == 0);
+  };
+  for (auto at = text.find(participant); at != std::string::npos;
+       at = text.find(participant, at + 1))
+    if ((at == 0 || is_outside(at - 1)) && is_outside(at + participant.size())) return true;
+  return false;
+}
+
+bool is_copy(const fs::path& file, const std::string& participant, const std::string& started_utc) {
+  constexpr std::uintmax_t longest_text = 64 << 20;
+  constexpr std::array<std::string_view, 4> texts{".csv", ".tsv", ".json", ".html"};
+  const std::string name = file.filename().string();
+  const bool is_text =
+      std::ranges::find(texts, std::string_view(file.extension().native())) != texts.end();
+  const bool is_log = name.find(".db") != std::string::npos && !name.ends_with("-wal") &&
+                      !name.ends_with("-shm") && !name.ends_with("-journal");
+  try {
+    if (is_log) return holds_session(file, participant, started_utc);
+    return is_text && fs::file_size(file) <= longest_text &&
+           names_participant(read_text_file(file.string()), participant);
+  } catch (const std::exception&) {
+    return false;  // not a log, or not readable
+  }
+}
+}  // namespace
+
+std::string withdraw_session(const std::string& db, std::int64_t session_id,
+                             const std::string& when_utc) {
+  LogFile file(db);
+  const SessionState state = LogReader(db).session(session_id).state;
+  if (state == SessionState::withdrawn)
+    throw Error(fmt::format("the data of session {} in {} were already withdrawn", session_id, db),
+                ExitCode::usage);
+  try {
+    return withdraw(file, session_id, when_utc);
+  } catch (const SQLite::Exception& error) {
+    throw sqlite_error(fmt::format("cannot withdraw session {} from {}", session_id, db), error,
+                       &file.database());
+  }
+}
+
+std::vector<std::string> copies_of_session(const std::string& folder, const std::string& db,
+                                           const std::string& participant,
+                                           const std::string& started_utc) {
+  std::vector<std::string> copies;
+  std::error_code unreadable;
+  const auto options = fs::directory_options::skip_permission_denied;
+  for (auto entry = fs::recursive_directory_iterator(folder, options, unreadable);
+       !unreadable && entry != fs::recursive_directory_iterator(); entry.increment(unreadable))
+    if (entry->is_regular_file(unreadable) && !fs::equivalent(entry->path(), db, unreadable) &&
+        is_copy(entry->path(), participant, started_utc))
+      copies.push_back(entry->path().string());
+  std::ranges::sort(copies);
+  return copies;
+}
+
+}  // namespace heft
