@@ -34,6 +34,10 @@ std::vector<FlowStep> steps_of(const ParticipantFlow& flow) {
   if (n_not_begun > 0)
     not_started += fmt::format("{}{} began no trial", not_started.empty() ? "" : ", ", n_not_begun);
   const int n_unfinished = flow.n_started - flow.n_finished;
+  if (flow.n_withdrawn > 0)
+    not_started +=
+        fmt::format("{}beside them the data of {} withdrawn", not_started.empty() ? "" : "; ",
+                    heft::counted(flow.n_withdrawn, "session"));
   return {{fmt::format("{} asked (with a session in the log)", flow.n_asked), not_started},
           {fmt::format("{} started", flow.n_started),
            n_unfinished > 0

@@ -205,6 +205,11 @@ LoggedSessions::LoggedSessions(const std::vector<std::string>& databases,
     OneLog& log =
         logs_.emplace_back(OneLog{database, LogReader(database), {named.begin(), named.end()}});
     if (log.session_ids.empty()) log.session_ids = log.reader.session_ids();
+    std::erase_if(log.session_ids, [&](std::int64_t id) {
+      const bool is_withdrawn = log.reader.session(id).state == SessionState::withdrawn;
+      n_withdrawn_ += is_withdrawn ? 1 : 0;
+      return is_withdrawn;
+    });
     for (const std::int64_t id : log.session_ids)
       purposes_[std::string(name_of(log.reader.session(id).header.purpose))] += 1;
   }

@@ -130,6 +130,8 @@ class LoggedSessions {
   std::string database() const;
   /// May be called again, and gives the same. Of several logs participants have person_name().
   void each(const std::function<void(const SessionData&)>& use) const;
+  /// Sessions without data, because they were withdrawn.
+  int n_withdrawn() const { return n_withdrawn_; }
   /// By name, how many sessions have each.
   const std::map<std::string, int>& purposes() const { return purposes_; }
 
@@ -142,6 +144,7 @@ class LoggedSessions {
 
   std::vector<OneLog> logs_;
   std::map<std::string, int> purposes_;
+  int n_withdrawn_ = 0;
 };
 
 /// @throws Error (usage) naming the purposes and how many sessions have them, when there are

@@ -102,6 +102,9 @@ void count_session(Sums& sums, const SessionData& data) {
   sums.events.checks_failed += data.events.checks_failed;
   sums.events.checks_warned += data.events.checks_warned;
   sums.events.unblindings += data.events.unblindings;
+  sums.pictures.shown += data.pictures.shown;
+  sums.pictures.dropped += data.pictures.dropped;
+  sums.pictures.late += data.pictures.late;
   sums.n_sessions += 1;
   sums.n_unfinished += data.finished() ? 0 : 1;
 }
@@ -128,6 +131,10 @@ std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losse
           {"void attempts", all.n_void, all.n_attempts, "each was presented again"},
           {"attempts with tracking lost", all.n_lost, all.n_attempts,
            "they count; the time is subtracted from the response time"},
+          {"camera pictures dropped", sums.pictures.dropped,
+           sums.pictures.shown + sums.pictures.dropped, "not shown to a participant"},
+          {"camera pictures late", sums.pictures.late, sums.pictures.shown,
+           "shown more than two picture periods after they were taken"},
           {"notes", sums.events.notes, std::nullopt, "logged by the experimenter or the program"},
           {"deviations from the protocol", sums.events.deviations, std::nullopt, "logged"},
           {"checks that failed", sums.events.checks_failed, std::nullopt,

@@ -63,6 +63,7 @@ class QualityFold {
     int n_completed = 0, n_early = 0, n_fast = 0, n_untouched = 0;
     std::set<double> least_answers_s;
     EventCounts events;
+    PictureCounts pictures;
   };
 
  private:

@@ -24,6 +24,7 @@ SessionSummary summary_of(const SessionData& data) {
     summary.n_void += attempt.trial.status == TrialStatus::voided ? 1 : 0;
     summary.n_open += attempt.trial.status == TrialStatus::open ? 1 : 0;
   }
+  summary.pictures = data.pictures;
   return summary;
 }
 
@@ -144,7 +145,12 @@ Summary analyze(const AnalysisOptions& options) {
   const LoggedSessions sessions(options.databases, options.session_ids);
   if (!options.mix) refuse_mixed_purposes(sessions);
   const auto each = [&](const std::function<void(const SessionData&)>& use) { sessions.each(use); };
-  return summarize(sessions.database(), each, options.command);
+  Summary summary = summarize(sessions.database(), each, options.command);
+  summary.flow.n_withdrawn = sessions.n_withdrawn();
+  summary.integrity = options.integrity;
+  for (const std::string& note : {withdrawn_note(summary), unverified_note(summary)})
+    if (!note.empty()) summary.notes.insert(summary.notes.begin(), note);
+  return summary;
 }
 
 }  // namespace heft

@@ -64,7 +64,10 @@ Lines step_lines(const NextStep& step, std::size_t label_width) {
   return lines;
 }
 
-std::string trials_in_words(const Summary& summary, const std::string& done) {
+// @param done what else was done, and the log's integrity
+std::string trials_in_words(const Summary& summary, std::string done) {
+  const std::string& integrity = summary.integrity.words;
+  if (!integrity.empty()) done += (done.empty() ? "" : "; ") + integrity + '.';
   std::map<Task, int, InTaskOrder> by_task;
   int n_completed = 0;
   for (const LossRow& row : summary.quality.losses)

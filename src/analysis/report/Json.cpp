@@ -162,10 +162,10 @@ ordered_json hypotheses_json(const Summary& summary) {
 }
 
 ordered_json flow_json(const ParticipantFlow& flow) {
-  return {{"n_asked", flow.n_asked},       {"n_declined", flow.n_declined},
-          {"n_started", flow.n_started},   {"n_finished", flow.n_finished},
-          {"n_analyzed", flow.n_analyzed}, {"excluded", flow.excluded},
-          {"unfinished", flow.unfinished}};
+  return {{"n_asked", flow.n_asked},       {"n_withdrawn", flow.n_withdrawn},
+          {"n_declined", flow.n_declined}, {"n_started", flow.n_started},
+          {"n_finished", flow.n_finished}, {"n_analyzed", flow.n_analyzed},
+          {"excluded", flow.excluded},     {"unfinished", flow.unfinished}};
 }
 }  // namespace
 
@@ -175,6 +175,8 @@ std::string as_json(const Summary& summary) {
       {"heft_version", HEFT_VERSION},
       {"command", summary.command},
       {"database", summary.database},
+      {"verified", summary.integrity.is_verified},
+      {"integrity", summary.integrity.words},
       {"simulated", summary.simulated()},
       {"data", summary.data.empty() ? ordered_json(nullptr) : ordered_json(summary.data)},
       {"confidence", confidence_level},

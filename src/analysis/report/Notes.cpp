@@ -20,6 +20,16 @@ std::string simulated_note(const Summary& summary) {
   return "Figures of people and of simulated responders are mixed.";
 }
 
+std::string withdrawn_note(const Summary& summary) {
+  const int n = summary.flow.n_withdrawn;
+  return n == 0 ? "" : fmt::format("Withdrawn: the data of {}.", counted(n, "session"));
+}
+
+std::string unverified_note(const Summary& summary) {
+  if (summary.integrity.is_verified) return "";
+  return "NOT VERIFIED: whether the log was changed was not checked (--unverified).";
+}
+
 namespace {
 std::string unfinished_note(const Summary& summary) {
   std::vector<std::string> sessions;

@@ -159,6 +159,8 @@ Table flow_table(const Summary& summary) {
     table.rows.push_back({word(std::move(step)), count(n), word(std::move(meaning))});
   };
   add("asked", flow.n_asked, "with a session in the log");
+  if (flow.n_withdrawn > 0)
+    add("withdrawn", flow.n_withdrawn, "sessions whose data were removed; not among those asked");
   add("declined", flow.n_declined, "did not agree to take part");
   add("started", flow.n_started, "began a trial");
   for (const auto& [state, n] : flow.unfinished)
@@ -180,16 +182,22 @@ Table session_table(const Summary& summary) {
                {"state", "state"},
                {"n_completed", "completed"},
                {"n_void", "void"},
-               {"n_open", "open"}},
+               {"n_open", "open"},
+               {"n_pictures", "pictures"},
+               {"n_dropped", "dropped"},
+               {"n_late", "late"}},
               {},
-              "completed, void and open are attempts at trials",
+              "completed, void and open are attempts at trials; dropped and late are camera "
+              "pictures",
               {},
               "sessions[]"};
   for (const SessionSummary& session : summary.sessions)
     table.rows.push_back({session_cell(session.session_id), word(session.participant),
                           word(session.protocol), word(session.purpose), word(session.responder),
                           named_cell(session.state), count(session.n_completed),
-                          count(session.n_void), count(session.n_open)});
+                          count(session.n_void), count(session.n_open),
+                          count(session.pictures.shown), count(session.pictures.dropped),
+                          count(session.pictures.late)});
   return table;
 }
 

@@ -77,7 +77,7 @@ void write_tracks(Folder& folder, const Summary& summary) {
   std::string name;
   for (const SessionTracks& session : summary.all_tracks) {
     const Table table = track_table(session);
-    const std::string of_session = as_csv(table, summary.data);
+    const std::string of_session = as_csv(table, marked(summary.data, summary));
     csv += csv.empty() ? of_session : of_session.substr(of_session.find('\n') + 1);
     name = table.name;
   }
@@ -87,7 +87,7 @@ void write_tracks(Folder& folder, const Summary& summary) {
 void write_tables(Folder& folder, const Summary& summary) {
   write_tracks(folder, summary);
   for (const Table& table : filled(tables_at(summary, all_csv_places)))
-    folder.write(table.name + ".csv", as_csv(table, summary.data));
+    folder.write(table.name + ".csv", as_csv(table, marked(summary.data, summary)));
 }
 
 struct DrawnChart {
@@ -102,6 +102,8 @@ table { border-collapse: collapse; font-size: 0.85rem; display: block; overflow-
 th, td { padding: 0.2rem 0.6rem; border-bottom: 1px solid #ddd; text-align: left; }
 td.n { text-align: right; font-variant-numeric: tabular-nums; }
 .note, .made { color: #666; font-size: 0.85rem; }
+.unverified { background: #fbdcdc; border: 2px solid #b00020; padding: 0.2rem 0.8rem;
+       position: sticky; top: 0; }
 .simulated { background: #fff3d6; border-left: 4px solid #d79b00; padding: 0.4rem 0.8rem; }
 svg { max-width: 100%; height: auto; }
 .first { border: 1px solid #bbb; padding: 0.2rem 1.2rem; font-size: 1.1rem; }
@@ -110,7 +112,7 @@ figure { margin: 1.5rem 0; break-inside: avoid; }
 figcaption { font-size: 0.9rem; max-width: 60rem; }
 nav ul { columns: 2; font-size: 0.9rem; }
 h2, h3 { break-after: avoid; }
-@media print { body { max-width: none; margin: 0; font-size: 11px; } nav { display: none; }
+@media print { .unverified { position: fixed; top: 0; right: 0; margin: 0; } body { max-width: none; margin: 0; font-size: 11px; } nav { display: none; }
   table { display: table; } a { color: inherit; text-decoration: none; } }
 @page { size: A4; margin: 15mm; }
 )";
@@ -171,13 +173,19 @@ std::string answer_html(const Summary& summary) {
       condition, answer);
 }
 
+std::string integrity(const Summary& summary) {
+  const std::string& words = summary.integrity.words;
+  return words.empty() ? "" : "The log: " + words + ".";
+}
+
 std::string head_html(const Summary& summary) {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n"
       "<title>Heft report</title>\n<style>{}</style>\n</head>\n<body>\n"
-      "<h1>Heft report</h1>\n<p>{}</p>\n",
-      style, html_escaped(headline(summary)));
+      "<h1>Heft report</h1>\n<p>{}</p>\n<p class=\"{}\">{}</p>\n",
+      style, html_escaped(headline(summary)), summary.integrity.is_verified ? "note" : "unverified",
+      html_escaped(integrity(summary)));
   html += "<div class=\"first\">\n" + answer_html(summary);
   for (const std::string& sentence : leading_sentences(summary))
     html += fmt::format("<p>{}</p>\n", html_escaped(sentence));

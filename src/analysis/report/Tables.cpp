@@ -38,7 +38,13 @@ std::string hypotheses_text(const Summary& summary) {
 }  // namespace
 
 std::string titled(std::string_view title, const Summary& summary) {
-  return summary.simulated() ? fmt::format("{} ({})", title, summary.data) : std::string(title);
+  const std::string marks = marked(summary.simulated() ? summary.data : "", summary);
+  return marks.empty() ? std::string(title) : fmt::format("{} ({})", title, marks);
+}
+
+std::string marked(const std::string& data, const Summary& summary) {
+  if (summary.integrity.is_verified) return data;
+  return data + (data.empty() ? "" : ", ") + "NOT VERIFIED";
 }
 
 std::vector<Table> tables_at(const Summary& summary, const std::vector<TablePlace>& places) {

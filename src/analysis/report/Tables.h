@@ -29,6 +29,9 @@ std::string headline(const Summary& summary);
 /// "Sorting" becomes "Sorting (simulated)" where it is.
 std::string titled(std::string_view title, const Summary& summary);
 
+/// "simulated" becomes "simulated, NOT VERIFIED" if the logs were not verified.
+std::string marked(const std::string& data, const Summary& summary);
+
 struct RecordTable {
   TablePlace place;
   Table (*make)(const Summary& summary);

@@ -12,6 +12,7 @@
 #include "analysis/report/Tables.h"
 #include "base/files/Printable.h"
 #include "cli/Commands.h"
+#include "cli/SessionOptions.h"
 #include "cli/console/Terminal.h"
 #include "session/Session.h"
 
@@ -22,7 +23,7 @@ struct AnalyseOptions {
   std::vector<std::string> databases;
   std::string out;
   std::vector<std::int64_t> sessions;
-  bool json = false, mix = false, tables = false;
+  bool json = false, mix = false, tables = false, unverified = false;
 };
 
 // The command, for repeating it with other options.
@@ -32,6 +33,7 @@ std::string command_of(const AnalyseOptions& options) {
     command += " --db " + shell_quoted(database);
   for (std::int64_t id : options.sessions) command += fmt::format(" --session {}", id);
   if (options.mix) command += " --mix";
+  if (options.unverified) command += " --unverified";
   if (!options.out.empty()) command += " --out " + shell_quoted(options.out);
   return command;
 }
@@ -58,7 +60,8 @@ void analyse(AnalyseOptions options) {
   for (const std::string& database : options.databases) refuse_special_file(database);
   if (!options.out.empty()) refuse_foreign_folder(options.out);
   const Summary summary =
-      analyze({options.databases, options.sessions, options.mix, command_of(options)});
+      analyze({options.databases, options.sessions, options.mix, command_of(options),
+               integrity_of(options.databases, options.sessions, options.unverified)});
   std::optional<ReportResult> report;
   if (!options.out.empty()) report = write_report(summary, options.out);
   if (options.json)
@@ -86,6 +89,7 @@ void add_analyse(Command& app) {
   command.add_flag("--tables", options->tables, "all tables instead of a summary");
   command.add_flag("--mix", options->mix,
                    "analyze sessions of several purposes (main, pilot, test, simulated) together");
+  add_unverified(command, options->unverified);
   command.does([options] { analyse(*options); });
 }
 

@@ -54,7 +54,8 @@ void demo(const DemoOptions& options) {
                {result.session_id},
                false,
                fmt::format("heft analyse --db {} --session {} --out {}", shell_quoted(request.db),
-                           result.session_id, shell_quoted(report))});
+                           result.session_id, shell_quoted(report)),
+               integrity_of({request.db}, {result.session_id}, false)});
   const ReportResult files = write_report(summary, report);
   const std::string log = "--db " + shell_quoted(request.db);
   FirstScreenOptions screen;

@@ -12,6 +12,7 @@
 #include "base/Error.h"
 #include "base/files/Printable.h"
 #include "cli/Commands.h"
+#include "cli/SessionOptions.h"
 #include "cli/console/Terminal.h"
 #include "session/Session.h"
 
@@ -21,7 +22,7 @@ namespace {
 struct ExportOptions {
   std::vector<std::string> logs, databases;
   std::string format = "csv", out, key_file;
-  bool pseudonymise = false;
+  bool pseudonymise = false, unverified = false;
 };
 
 // Beside the folder, never in it, because the folder is shared.
@@ -63,14 +64,16 @@ void export_to(const ExportOptions& options) {
   if (logs.empty()) logs.emplace_back("heft.db");
   for (const std::string& log : logs) refuse_special_file(log);
   refuse_filled_folder(options.out);
+  const LogIntegrity integrity = integrity_of(logs, {}, options.unverified);
   const ExportFormat format = *named<ExportFormat>(options.format);
-  const ExportRequest request{logs, format, options.out, key_of(options)};
+  const ExportRequest request{logs, format, options.out, key_of(options), integrity.is_verified};
   std::vector<ExportedFile> files;
   {
     ProgressBar bar("exporting");
     files = export_logs(request, [&](double fraction) { bar.update(fraction, ""); });
   }
   list_files(files);
+  say("the log: {}\n", integrity.words);
   if (format == ExportFormat::csv)
     say("\ndictionary.csv explains every column. In R: trials <- read.csv(\"{0}/trials.csv\"); "
         "figures and models: (cd {1} && Rscript analysis.R)\n",
@@ -86,9 +89,10 @@ void add_export(Command& app) {
        "heft export lab1.db lab2.db --format psych-ds --out dataset",
        "heft export heft.db --format bids --pseudonymise --out shared", "",
        "--pseudonymise replaces participants' ids by names such as p1a2b3c4d5e6f (HMAC-SHA-256 "
-       "with the key, so that a person has the same name in each export with it). It omits typed "
-       "texts and file names, keeps only numbers of what participants reported, and only the year "
-       "of dates.",
+       "with the key, so that a person has the same name in each export with it). It omits seeds, "
+       "typed texts and file names, keeps only numbers of what participants reported, and only the "
+       "year of dates. Sessions and all rows get fresh ids in a random order of persons. Answers "
+       "and times remain: who has another export with names can match them.",
        "",
        "The key is a line of 64 hexadecimal digits, created if its file is missing. To make your "
        "own:",
@@ -107,6 +111,7 @@ void add_export(Command& app) {
                    "there");
   command.add_option("--key", &options->key_file,
                      "another file for --pseudonymise: its key, or a new one if it is missing");
+  add_unverified(command, options->unverified);
   command.does([options] { export_to(*options); });
 }
 
