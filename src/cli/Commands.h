@@ -24,6 +24,7 @@ void add_show(Command& app);
 void add_simulate(Command& app);
 void add_track(Command& app);
 void add_validate(Command& app);
+void add_withdraw(Command& app);
 
 /// All commands above.
 void add_commands(Command& app);

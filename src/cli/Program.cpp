@@ -1,6 +1,7 @@
 #include "base/Program.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -97,6 +98,7 @@ void add_commands(Command& app) {
   add_analyse(app);
   add_fit(app);
   add_validate(app);
+  add_withdraw(app);
   add_new(app);
   add_procedure(app);
   add_scene(app);
@@ -108,6 +110,8 @@ void add_commands(Command& app) {
 }
 
 int run_program(const ProgramDescription& program, int argc, char** argv) {
+  // Reports, exports, pictures and videos are about people, as logs are.
+  umask(S_IRWXG | S_IRWXO);
   return exit_code_of([&] {
     if (program.name == "heft" && argc > 1 && std::strcmp(argv[1], "bench") == 0)
       become_bench(argv + 2, argv + argc);

@@ -80,10 +80,10 @@ void require_as_asked(const CalibrateOptions& options, const CameraRequest& requ
                 ExitCode::usage);
   const bool fits = picture.width == request.width_px && picture.height == request.height_px;
   if (options.size.empty() || fits) return;
-  throw Error(fmt::format(
-      "--size {}: {} gives pictures of {} x {} pixels; {}", options.size, to_text(*options.source),
-      picture.width, picture.height,
-      camera.is_live() ? "heft doctor --list prints its sizes" : "omit --size, it sets live cameras only"));
+  throw Error(fmt::format("--size {}: {} gives pictures of {} x {} pixels; {}", options.size,
+                          to_text(*options.source), picture.width, picture.height,
+                          camera.is_live() ? "heft doctor --list prints its sizes"
+                                           : "omit --size, it sets live cameras only"));
 }
 
 void say_locks(const Camera& camera) {

@@ -1,0 +1,126 @@
+// heft withdraw: removes a person's data from a log.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "base/Clock.h"
+#include "base/Error.h"
+#include "cli/Commands.h"
+#include "cli/console/Terminal.h"
+#include "cli/reports/Reports.h"
+#include "record/writer/Withdrawal.h"
+#include "session/Session.h"
+
+namespace heft::cli {
+
+namespace {
+struct WithdrawOptions {
+  std::string db = "heft.db";
+  std::optional<std::int64_t> session;
+  std::vector<std::string> folders;
+  bool yes = false;
+};
+
+// What is about to be removed, and where copies may be.
+struct Found {
+  SessionFacts facts;
+  std::set<std::string> folders;   ///< to be searched
+  std::set<std::string> pictures;  ///< folders with recorded camera pictures
+};
+
+Found found_in(const LogReader& reader, const WithdrawOptions& options) {
+  Found found{facts_of(reader, reader.session(*options.session)), {}, {}};
+  const auto folder = std::filesystem::absolute(options.db).parent_path();
+  found.folders = {folder.string()};
+  found.folders.insert(options.folders.begin(), options.folders.end());
+  for (const LoggedSetup& logged : reader.setups(*options.session)) {
+    if (!logged.setup.backup.empty()) found.folders.insert(logged.setup.backup);
+    if (!logged.setup.record_camera.empty()) found.pictures.insert(logged.setup.record_camera);
+  }
+  return found;
+}
+
+void confirm(const SessionFacts& facts, const WithdrawOptions& options) {
+  const std::string what =
+      fmt::format("session {} of participant {}, {}, {} of {}", facts.row.session_id,
+                  facts.row.header.participant, facts.row.header.protocol_name,
+                  counted(facts.n_completed, "trial"), facts.row.header.started_utc);
+  if (options.yes) return say("removing {}\n", what);
+  if (isatty(STDIN_FILENO) != 1)
+    throw Error(fmt::format("this removes {} and cannot be undone; add --yes to do it", what),
+                ExitCode::usage);
+  say("This removes {}. It cannot be undone.\nType the participant's id to go on: ", what);
+  std::string typed;
+  std::getline(std::cin, typed);
+  if (typed != facts.row.header.participant)
+    throw Error("that is not the participant's id; nothing was removed", ExitCode::usage);
+}
+
+// Names of files by their folders: an export has a dozen.
+std::map<std::string, std::vector<std::string>> by_folder(const std::set<std::string>& files) {
+  std::map<std::string, std::vector<std::string>> folders;
+  for (const std::string& file : files) {
+    const std::filesystem::path path(file);
+    folders[path.parent_path().string()].push_back(path.filename().string());
+  }
+  return folders;
+}
+
+void report_copies(const Found& found, const WithdrawOptions& options) {
+  std::set<std::string> copies;
+  for (const std::string& folder : found.folders)
+    for (const std::string& copy :
+         copies_of_session(folder, options.db, found.facts.row.header.participant,
+                           found.facts.row.header.started_utc))
+      copies.insert(copy);
+  print("copies that remain, in {}:\n", fmt::format("{}", fmt::join(found.folders, ", ")));
+  for (const auto& [folder, names] : by_folder(copies))
+    if (names.size() > 3)
+      print("  {} ({} files, such as {})\n", folder, names.size(), names.front());
+    else
+      for (const std::string& name : names) print("  {}/{}\n", folder, name);
+  for (const std::string& folder : found.pictures) print("  {} (camera pictures)\n", folder);
+  if (copies.empty() && found.pictures.empty()) print("  none found\n");
+  print(
+      "Delete them, and what was given away: pseudonymised exports do not name the participant "
+      "and are not found here.\n");
+}
+
+void withdraw(const WithdrawOptions& options) {
+  if (!options.session)
+    throw Error(fmt::format("--session N is required: heft list --db {} shows them",
+                            shell_quoted(options.db)),
+                ExitCode::usage);
+  refuse_special_file(options.db);
+  const Found found = found_in(LogReader(options.db), options);
+  if (found.facts.row.state == SessionState::withdrawn)
+    throw Error(fmt::format("session {} in {} is already withdrawn", *options.session, options.db),
+                ExitCode::usage);
+  confirm(found.facts, options);
+  const std::string head = withdraw_session(options.db, *options.session, utc_now());
+  print("session {} is withdrawn; head of the log: {}\n", *options.session, short_head(head));
+  report_copies(found, options);
+}
+}  // namespace
+
+void add_withdraw(Command& app) {
+  const auto options = std::make_shared<WithdrawOptions>();
+  Command command = app.add_command(
+      "withdraw", "remove a person's data from a log, and list the copies that remain",
+      {"heft withdraw --db lab.db --session 7", "heft withdraw --db lab.db --session 7 --yes",
+       "heft withdraw --db lab.db --session 7 --search /media/stick"});
+  command.add_option("--db", &options->db, "the log").shows_default();
+  command.add_session(options->session, "none: it must be named");
+  command.add_option("--search", &options->folders,
+                     "another folder to search for copies, beside the log's and its backups'; "
+                     "repeat for several");
+  command.add_flag("--yes", options->yes, "do not ask");
+  command.does([options] { withdraw(*options); });
+}
+
+}  // namespace heft::cli
