@@ -26,6 +26,8 @@ def main(port):
         line = events.recv(65536).decode().strip()
         arrived_s = pylsl.local_clock()
         event = json.loads(line)
+        if event.get("logged"):
+            continue  # confirms a line that came before
         utc_s = datetime.fromisoformat(event["utc"].replace("Z", "+00:00")).timestamp()
         key = event["session"]
         offset_s[key] = min(offset_s.get(key, float("inf")), arrived_s - utc_s)

@@ -211,7 +211,8 @@ AnnouncingSink::AnnouncingSink(EventSink& log, EventOutlet& outlet, std::int64_t
                                std::string participant)
     : log_(log), outlet_(outlet), session_id_(session_id), participant_(std::move(participant)) {}
 
-std::string AnnouncingSink::line_of(const Event& event, const Changes& changes) {
+std::string AnnouncingSink::line_of(const Event& event, const Changes& changes,
+                                    std::optional<bool> logged) {
   if (!zero_) zero_ = std::chrono::system_clock::now() - as_duration(event.t_s);
   if (changes.trial) {
     attempt_index_ = changes.attempt_index;
@@ -219,6 +220,7 @@ std::string AnnouncingSink::line_of(const Event& event, const Changes& changes) 
   }
   AnnouncedEvent about{session_id_, participant_, utc_of(*zero_ + as_duration(event.t_s)), {}};
   if (changes.attempt_index > 0 && changes.attempt_index == attempt_index_) about.plan = plan_;
+  about.logged = logged;
   return event_line(event, about);
 }
 
@@ -232,9 +234,13 @@ void AnnouncingSink::announce(const Event& event, const Changes& changes) {
   outlet_.send(line_of(event, changes));
 }
 
-// An event that a busy log buffers is announced later; one that it refuses is never announced.
+// A buffered event, such as a contact, is on disk up to a second later: too late for a trigger. It
+// is announced immediately, and again when it is logged. Others are announced once, when they are
+// logged, and never if the log refuses them.
 void AnnouncingSink::append(const Event& event, const Changes& changes, Durability durability) {
-  waiting_.push_back(line_of(event, changes));
+  const bool is_buffered = durability == Durability::buffered;
+  if (is_buffered) outlet_.send(line_of(event, changes, false));
+  waiting_.push_back(line_of(event, changes, is_buffered ? std::optional(true) : std::nullopt));
   try {
     log_.append(event, changes, durability);
   } catch (const LogBusy&) {

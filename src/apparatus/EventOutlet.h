@@ -75,7 +75,7 @@ class AnnouncingSink final : public EventSink {
   void flush() override;
 
  private:
-  std::string line_of(const Event& event, const Changes& changes);
+  std::string line_of(const Event& event, const Changes& changes, std::optional<bool> logged = {});
   void send_waiting();
 
   EventSink& log_;

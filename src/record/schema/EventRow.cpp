@@ -231,6 +231,7 @@ std::string event_line(const Event& event, const AnnouncedEvent& about) {
   if (row.label) line["label"] = name_of(*row.label);
   if (!row.detail.empty() && row.kind != event_kind<SessionConfig>)
     line["detail"] = truncated(row.detail, longest_detail);
+  if (about.logged) line["logged"] = *about.logged;
   return line.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 

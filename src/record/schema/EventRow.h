@@ -51,6 +51,8 @@ struct AnnouncedEvent {
   std::string participant;
   std::string utc;                ///< of the event
   std::optional<TrialPlan> plan;  ///< of the event's trial
+  /// Of an event that is announced twice: immediately, and when it is on disk.
+  std::optional<bool> logged = {};
 };
 
 /// {"t_s":12.5,"utc":"...","session":1,"participant":"P07","kind":"cubes_shown","trial":3,...}:
