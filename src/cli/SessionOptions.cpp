@@ -254,6 +254,12 @@ void report_dropped(const EventOutlet& events, const std::string& where) {
       events.n_dropped(), events.n_dropped() + events.n_sent(), where);
 }
 
+void say_head(const SessionResult& result, const std::string& db) {
+  say("head of the log: {0}; note it in the lab book\n"
+      "check the log with it: heft replay --db {1} --witness {0}\n",
+      short_head(result.head), shell_quoted(db));
+}
+
 // Declining is everyone's right, and no error.
 void say_declined(const SessionResult& result, const std::string& db) {
   say("the participant declined: session {} has ended as aborted, before its first "
@@ -263,6 +269,7 @@ void say_declined(const SessionResult& result, const std::string& db) {
 }  // namespace
 
 void say_finished(const SessionResult& result, const std::string& db) {
+  say_head(result, db);
   if (result.end == RunEnd::declined) return say_declined(result, db);
   say("session {} is finished: {}, {:.0f} min of session time, all saved in {}\n"
       "results: heft analyse --db {}\n"
@@ -309,10 +316,9 @@ SessionResult run_session(const CommandedSession& session,
   console.reset();
   if (events) report_dropped(*events, session.events->text);
   back_up_and_report(session.db, session.config->config.backup, result.session_id);
-  say("head of the log: {0}. Note it down; later: heft replay --db {1} --witness {0}\n",
-      short_head(result.head), shell_quoted(session.db));
   const std::string resume =
       fmt::format("heft resume --db {} --session {}", shell_quoted(session.db), result.session_id);
+  if (result.end == RunEnd::stopped || result.end == RunEnd::paused) say_head(result, session.db);
   if (result.end == RunEnd::stopped)
     throw Error("stopped; everything up to the last answer is saved. Continue with: " + resume,
                 ExitCode::interrupted);

@@ -150,7 +150,9 @@ class Verifier {
   void compare_digests() {
     const auto broken = reader_.first_broken_digest(session_id_);
     if (!broken) return;
-    differ(broken->attempt_index, broken->t_s, broken->row,
+    // What is wrong with a seal's session is more specific.
+    const double t_s = broken->table == "seal" ? fold_.last_s : broken->t_s;
+    differ(broken->attempt_index, t_s, broken->row,
            broken->damage.empty() ? "digest " + broken->logged : broken->damage,
            broken->damage.empty() ? "digest " + broken->recomputed : "a row as it was written");
   }

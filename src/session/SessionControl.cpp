@@ -58,7 +58,7 @@ std::vector<Touch> SessionControl::touched(double seconds) {
 }
 
 void SessionControl::wait_while_held() {
-  note_alive();
+  if (!journal_.busy()) note_alive();
   std::optional<double> busy_since_s;
   for (;;) {
     if (journal_.busy() && !busy_since_s) {
@@ -97,7 +97,10 @@ void SessionControl::refuse_stale() {
 // On a wall clock; a command may have continued the session meanwhile.
 void SessionControl::pause_for_database() {
   if (!journal_.clock().is_wall() || journal_.engine().state() != SessionState::running) return;
-  journal_.emit_now(SessionPaused{std::string(database_locked)});
+  // Since the program waits for the lock.
+  journal_.emit({std::max(alive_s_, journal_.engine().last_s()),
+                 SessionPaused{std::string(database_locked)}},
+                Durability::acknowledged);
   paused_for_database_ = true;
 }
 

@@ -187,7 +187,7 @@ class Names(SessionTest):
         db = self.folder / "it's $(touch loot) & \x1b.db"
         done = self.session(db)
         lines = [line.split(": ", 1)[1] for line in done.stderr.splitlines() if ": heft " in line]
-        self.assertEqual(len(lines), 2, done.stderr)
+        self.assertEqual(len(lines), 3, done.stderr)
         for command in lines:
             ran = subprocess.run(["bash", "-c", f"heft() {{ {shlex.quote(self.heft)} \"$@\"; }}; "
                                   + command], capture_output=True, cwd=self.folder, timeout=120)

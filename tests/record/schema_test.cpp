@@ -92,7 +92,7 @@ TEST_F(SchemaRules, EveryTableIsStrict) {
                 ->execAndGet("SELECT count(*) FROM pragma_table_list WHERE schema = 'main' AND "
                              "type = 'table' AND strict")
                 .getInt(),
-            11 + static_cast<int>(closed_lists().size() + word_lists.size()));
+            12 + static_cast<int>(closed_lists().size() + word_lists.size()));
   EXPECT_FALSE(accepts("UPDATE event SET t_s = 'soon'"));
   EXPECT_FALSE(accepts("UPDATE trial SET attempt = 1.5"));
   EXPECT_FALSE(accepts("UPDATE frame SET effector_x_m = 'left'"));

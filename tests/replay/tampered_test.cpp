@@ -202,7 +202,7 @@ class EveryColumn : public TamperedReplay {
 
   // As `heft replay` does.
   bool is_found() const {
-    if (!check_integrity(file).empty()) return true;
+    if (!faults_of_file(LogReader(file), file).empty()) return true;
     return verified().first.has_value();
   }
 };

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "SourceFolder.h"
+#include "apparatus/TrialWorld.h"
 #include "base/Random.h"
 #include "protocol/readers/Files.h"
 #include "session/Protocols.h"

@@ -25,7 +25,7 @@ struct AnalysisOptions {
   std::vector<std::int64_t> session_ids;  ///< of a single log; empty: all
   bool mix = false;                       ///< put sessions of several purposes together
   std::string command;                    ///< what was typed; below every chart
-  LogIntegrity integrity;
+  LogIntegrity integrity = {};
 };
 
 /// One session and how much of it counts.
@@ -34,7 +34,7 @@ struct SessionSummary {
   std::string participant, protocol, purpose, responder;
   SessionState state = SessionState::running;
   int n_completed = 0, n_void = 0, n_open = 0;  ///< attempts
-  PictureCounts pictures;
+  PictureCounts pictures = {};
 };
 
 enum class HypothesisVerdict { supported, not_supported, inconclusive };
@@ -68,7 +68,7 @@ class Section;
 
 struct Summary {
   std::string database, command;
-  LogIntegrity integrity;
+  LogIntegrity integrity = {};
   std::string data;  ///< "human", "simulated" or "human and simulated"; empty: no sessions
   std::vector<SessionSummary> sessions;
   int n_participants = 0;                    ///< that count

@@ -13,7 +13,7 @@
 #include "cli/Commands.h"
 #include "cli/console/Terminal.h"
 #include "cli/reports/Reports.h"
-#include "record/writer/Withdrawal.h"
+#include "record/writer/SessionLog.h"
 #include "session/Session.h"
 
 namespace heft::cli {
@@ -54,7 +54,7 @@ void confirm(const SessionFacts& facts, const WithdrawOptions& options) {
   if (isatty(STDIN_FILENO) != 1)
     throw Error(fmt::format("this removes {} and cannot be undone; add --yes to do it", what),
                 ExitCode::usage);
-  say("This removes {}. It cannot be undone.\nType the participant's id to go on: ", what);
+  say("This removes {}. It cannot be undone.\nType the participant's id to continue: ", what);
   std::string typed;
   std::getline(std::cin, typed);
   if (typed != facts.row.header.participant)

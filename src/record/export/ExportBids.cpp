@@ -89,8 +89,10 @@ void write_json(ExportFolder& folder, const std::string& name, const ordered_jso
   folder.write_text(name, json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n');
 }
 
-ordered_json sidecar_of(const ExportTable& table, ordered_json json) {
+ordered_json sidecar_of(const ExportTable& table, ordered_json json, const ExportFolder& folder) {
   for (const ExportColumn& column : table.columns) json[column.name] = column_json(column);
+  if (const std::string warning = folder.warning(); !warning.empty())
+    json["unverified"] = {{"Description", "1 in every row." + warning}};
   return json;
 }
 
@@ -162,7 +164,8 @@ class BidsExport {
     file.close();
     folder_.wrote("participants.tsv", static_cast<std::int64_t>(people.size()));
     ExportTable described{"participants", "", "", "", header};
-    write_json(folder_, "participants.json", sidecar_of(described, ordered_json::object()));
+    write_json(folder_, "participants.json",
+               sidecar_of(described, ordered_json::object(), folder_));
   }
 
   void write_sessions(const BidsPerson& person) {
@@ -185,7 +188,7 @@ class BidsExport {
       });
     file.close();
     folder_.wrote(name + ".tsv", static_cast<std::int64_t>(person.sessions.size()));
-    write_json(folder_, name + ".json", sidecar_of(described, ordered_json::object()));
+    write_json(folder_, name + ".json", sidecar_of(described, ordered_json::object(), folder_));
   }
 
   void write_task(const BidsPerson& person, const BidsSession& session, const std::string& task) {
@@ -216,8 +219,9 @@ class BidsExport {
   void write_sidecars(const std::string& task) {
     const ordered_json about{{"TaskName", task}, {"TaskDescription", task_named(task).about}};
     const std::string stem = "task-" + task_label(task);
-    write_json(folder_, stem + "_beh.json", sidecar_of(trials_, about));
-    write_json(folder_, stem + "_events.json", sidecar_of(events_, ordered_json::object()));
+    write_json(folder_, stem + "_beh.json", sidecar_of(trials_, about, folder_));
+    write_json(folder_, stem + "_events.json",
+               sidecar_of(events_, ordered_json::object(), folder_));
   }
 
   // Estimates are derived from the answers, hence a derivative dataset.
@@ -248,7 +252,7 @@ class BidsExport {
     file.close();
     folder_.wrote("derivatives/heft/estimates.tsv", n);
     write_json(folder_, "derivatives/heft/estimates.json",
-               sidecar_of(described, ordered_json::object()));
+               sidecar_of(described, ordered_json::object(), folder_));
     write_json(folder_, "derivatives/heft/dataset_description.json",
                description("Perceived mass: estimates of staircases", "derivative"));
   }

@@ -11,7 +11,6 @@
 #include "base/Error.h"
 #include "base/files/TextFile.h"
 #include "record/export/Export.h"
-#include "record/export/FreshIds.h"
 #include "record/reader/ReadOnlyDatabase.h"
 #include "record/writer/Failures.h"
 #include "record/writer/LogFile.h"

@@ -57,4 +57,9 @@ class ExportSource {
   std::vector<ExportTable> tables_;
 };
 
+/// Renumbers all rows of a copy of a log, for pseudonymised exports: persons are in random order,
+/// each person's sessions in their own. Ids and the order of rows then do not show who took part
+/// when. Digests and seals become invalid.
+void draw_fresh_ids(SQLite::Database& database);
+
 }  // namespace heft

@@ -1,10 +1,11 @@
-#include "record/export/FreshIds.h"
-
+// Fresh ids for pseudonymised exports.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
 #include <array>
 #include <string>
+
+#include "record/export/ExportSource.h"
 
 namespace heft {
 

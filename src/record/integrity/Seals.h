@@ -3,8 +3,8 @@
 // A session is sealed when it ends or is left; one that was cut off, when the log is next written.
 // A seal covers the session's id, header (with its start time), state, events, frames and answers
 // about the participant, and the previous seal. A session that is resumed gets another seal. The
-// digest of a seal is the log's head. Whoever knows a head can tell whether the sessions up to it
-// are complete and unchanged, even if all digests in the file were recomputed.
+// digest of a seal is the log's head. With a head that was noted elsewhere one can check that the
+// sessions up to it are complete and unchanged, even if all digests in the file were recomputed.
 #pragma once
 
 #include <cstdint>

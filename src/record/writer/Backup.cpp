@@ -43,7 +43,7 @@ void make_backup_folder(const fs::path& folder) {
 }
 
 // Copies of this session that were cut off: the writer's lock of a session that is backed up is
-// taken, so nobody else is making one.
+// taken, so no other program makes one.
 void remove_cut_off(const fs::path& folder, const std::string& session) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();

@@ -1,5 +1,3 @@
-#include "record/writer/Withdrawal.h"
-
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
@@ -18,6 +16,7 @@
 #include "record/schema/Schema.h"
 #include "record/writer/Failures.h"
 #include "record/writer/LogFile.h"
+#include "record/writer/SessionLog.h"
 
 namespace heft {
 
