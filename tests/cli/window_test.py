@@ -4,6 +4,7 @@ Run: python3 tests/cli/window_test.py path/to/heft
 """
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -151,6 +152,36 @@ class Window(unittest.TestCase):
         self.assertEqual(late, [(0,)])
         replay = subprocess.run([HEFT, "replay", "--db", self.db], capture_output=True, text=True)
         self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
+
+    def test_a_program_that_is_stopped_pauses_the_trial(self):
+        person = self.start("--responder", "simulated", "--view", "window")
+        for stop, why in ((signal.SIGSTOP, "the program stood still"), (signal.SIGTSTP, "suspended")):
+            shown = "select trial_id from trial where status = 'open' and shown_s is not null"
+            self.wait_for(lambda: person.log(shown))
+            [(trial,)] = person.log(shown)
+            time.sleep(0.5)
+            self.program.send_signal(stop)
+            stat = Path(f"/proc/{self.program.pid}/stat")
+            self.wait_for(lambda: stat.read_text().rsplit(")", 1)[1].split()[0] == "T")
+            time.sleep(1)
+            self.program.send_signal(signal.SIGCONT)
+            self.wait_for(lambda: person.log(
+                f"select 1 from trial where trial_id = {trial} and status = 'completed'"))
+            [(paused_s,)] = person.log(f"select paused_s from trial where trial_id = {trial}")
+            self.assertGreater(paused_s, 0.95)
+            self.assertEqual(person.log("select detail from event where kind = 'paused' and "
+                                        f"trial_id = {trial}"), [(why,)])
+        self.program.send_signal(signal.SIGINT)
+        self.program.communicate(timeout=60)
+        replay = subprocess.run([HEFT, "replay", "--db", self.db], capture_output=True, text=True)
+        self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
+
+    def wait_for(self, condition, seconds=60):
+        deadline = time.time() + seconds
+        while not condition():
+            self.assertLess(time.time(), deadline)
+            self.assertIsNone(self.program.poll())
+            time.sleep(0.02)
 
     def test_a_filmed_hand_is_tracked_under_the_participants_answers(self):
         person = self.start("--tracker", "synthetic", "--language", "fr", "--go-on")
