@@ -8,6 +8,7 @@
 namespace heft {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
@@ -34,6 +35,14 @@ TEST(Table, CsvIsUnroundedQuotedAndSaysWhoseFigures) {
             "data,name,value_g,hidden\n"
             "simulated,\"é, \"\"x\"\"\",0.3333333333333333,7\n"
             "simulated,b,,8\n");
+}
+
+TEST(Table, NoCellIsAFormulaOrATerminalsCommand) {
+  Table table = small_table();
+  table.rows[0][0].text = "=1+1";
+  table.rows[1][0].text = "-2";
+  EXPECT_THAT(as_csv(table, ""), AllOf(HasSubstr(",'=1+1,"), HasSubstr(",'-2,")));
+  EXPECT_EQ(html_escaped("a\x1b[2J\nb"), "a\uFFFD[2J\nb");
 }
 
 TEST(Table, HtmlIsEscapedAndWithoutCsvOnlyColumns) {

@@ -94,6 +94,19 @@ TEST_F(Backup, NeverReplacesAFile) {
   EXPECT_EQ(files_in(folder).size(), 5u);
 }
 
+TEST_F(Backup, RemovesItsCopiesThatWereCutOff) {
+  write_session("P02");
+  fs::create_directory(folder);
+  const std::string mine = backup_name("P/01 ä", 1, "2026-11-22T09:30:00Z", "");
+  const std::string another = backup_name("P02", 2, "2026-11-22T09:30:00Z", "");
+  for (const std::string& name : {mine, another}) std::ofstream(folder + "/" + name + ".db.part");
+  std::ofstream(folder + "/" + mine + ".db");
+  back_up(db, folder, 1);
+  EXPECT_FALSE(fs::exists(folder + "/" + mine + ".db.part"));
+  EXPECT_TRUE(fs::exists(folder + "/" + mine + ".db"));
+  EXPECT_TRUE(fs::exists(folder + "/" + another + ".db.part"));
+}
+
 TEST_F(Backup, OfChangedLogIsRefused) {
   { SQLite::Database(db, SQLite::OPEN_READWRITE).exec("UPDATE event SET detail = 'forged'"); }
   try {

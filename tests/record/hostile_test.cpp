@@ -13,6 +13,7 @@
 namespace heft::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class HostileFile : public testing::Test {
@@ -47,6 +48,15 @@ TEST_F(HostileFile, TriggersDoNotRun) {
   }
   SQLite::Database plain(file_, SQLite::OPEN_READONLY);
   EXPECT_EQ(plain.execAndGet("SELECT count(*) FROM loot").getInt(), 0);
+}
+
+TEST_F(HostileFile, ViewInPlaceOfATableIsRefused) {
+  put_in(
+      "PRAGMA foreign_keys = OFF; DROP VIEW v_trial; DROP VIEW v_sorting; DROP VIEW v_frame; DROP "
+      "VIEW v_jnd; DROP TABLE session; CREATE VIEW session AS WITH RECURSIVE c AS (SELECT 1 UNION "
+      "ALL SELECT * FROM main.c) SELECT * FROM c");
+  EXPECT_THAT(test::failure([&] { LogReader{file_}.sessions(); }),
+              AllOf(HasSubstr(file_), HasSubstr("cannot read the sessions")));
 }
 
 TEST_F(HostileFile, ViewsAreNotRead) {

@@ -1,6 +1,7 @@
 // Pictures, folders of pictures and video files as cameras.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -150,6 +151,19 @@ TEST(PictureFolder, TakesItsTimesFromTheTableBesideThePictures) {
   EXPECT_THAT(refusal("frame,t_s\na.png,1\na.png,2\n"), HasSubstr("times.csv:3:1"));
   EXPECT_THAT(refusal("frame,t_s\na.png,1\nb.png,2\n"), HasSubstr("c.png"));
   EXPECT_THAT(refusal("frame,t_s\na.png,1\nb.png,2\nc.png,2\n"), HasSubstr("increase"));
+}
+
+TEST(PictureFolder, RefusesMissingPicturesAndWhatIsNoFile) {
+  const TemporaryFolder folder;
+  write_image(folder.file("a.png"), plain(50));
+  const auto opening = [&] { return message_of([&] { open_camera("frames", folder.path()); }); };
+  write_text(folder.file("times.csv"), "frame,t_s\na.png,1\nb.png,2\n");
+  EXPECT_THAT(opening(), AllOf(HasSubstr("times.csv has a time for b.png"), HasSubstr("no such")));
+  std::filesystem::create_symlink(folder.file("nowhere"), folder.file("b.png"));
+  EXPECT_THAT(opening(), AllOf(HasSubstr("b.png"), HasSubstr("no file")));
+  std::filesystem::remove(folder.file("b.png"));
+  ASSERT_EQ(mkfifo(folder.file("b.png").c_str(), 0600), 0);
+  EXPECT_THAT(opening(), AllOf(HasSubstr("b.png"), HasSubstr("no file")));
 }
 
 TEST(PictureFolder, NamesAPictureThatIsDamaged) {
