@@ -201,6 +201,12 @@ std::optional<std::string> near_planned_id(const std::string& id, const StudyPla
   return near;
 }
 
+bool is_planned_id(const std::string& id, const StudyPlan& plan) {
+  for (int number = 1; number <= plan.participants; ++number)
+    if (planned_id(plan, number) == id) return true;
+  return false;
+}
+
 std::optional<std::string> near_id(const std::string& id, const std::vector<SessionRow>& sessions) {
   if (is_in(sessions, id)) return std::nullopt;
   for (const SessionRow& session : sessions)

@@ -67,4 +67,6 @@ std::optional<std::string> near_id(const std::string& id, const std::vector<Sess
 /// The same among the plan's ids.
 std::optional<std::string> near_planned_id(const std::string& id, const StudyPlan& plan);
 
+bool is_planned_id(const std::string& id, const StudyPlan& plan);
+
 }  // namespace heft

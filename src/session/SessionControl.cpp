@@ -237,8 +237,9 @@ void SessionControl::obey(const ConsoleCommand& command) {
       journal_.emit_now(Note{command.text});
       return confirm("noted");
     case ConsoleCommandKind::rest:
-      rest_wanted_ = true;
-      return console_->say("a break comes before the next trial");
+      rest_wanted_ = !rest_wanted_;
+      return console_->say(rest_wanted_ ? "a break comes before the next trial; b takes it back"
+                                        : "no break comes before the next trial");
     case ConsoleCommandKind::end:
       if (asking_) answer_ = Answer::leave;
       leaving_ = true;

@@ -103,7 +103,9 @@ class Plans(StudyTest):
     def test_a_participant_can_be_named(self):
         self.next("--participant", "P03")
         self.assertEqual(self.info(1)["study_place"], "3")
-        self.next("--participant", "Anna")
+        said = self.next("--participant", "Anna", expect=2).stderr
+        self.assertIn('has no participant "Anna", but P01 to P04', said)
+        self.next("--participant", "Anna", "--again")
         self.assertEqual(self.info(2)["study_place"], "1")
         self.assertIn("--again", self.next("--participant", "Anna", expect=2).stderr)
         self.next("--participant", "Anna", "--again")

@@ -149,6 +149,18 @@ void refuse_unless_two_people(const std::string& found, RunOptions& options) {
               ExitCode::usage);
 }
 
+// A wrong id would take the next participant's place.
+void refuse_unless_new(const StudyPlan& plan, const RunOptions& options) {
+  const std::string found =
+      fmt::format("the plan {} has no participant \"{}\"", options.plan, *options.participant);
+  if (is_asked_and_answered_yes(found + ". Give this person the next free place?")) return;
+  throw Error(
+      fmt::format("{}, but {} to {}: correct the id, or add --again to give this person the next "
+                  "free place",
+                  found, planned_id(plan, 1), planned_id(plan, plan.participants)),
+      ExitCode::usage);
+}
+
 // P2 instead of P02 would take another participant's place.
 void refuse_id_near_to_planned(const StudyPlan& plan, const std::vector<SessionRow>& sessions,
                                RunOptions& options) {
@@ -160,6 +172,8 @@ void refuse_id_near_to_planned(const StudyPlan& plan, const std::vector<SessionR
         fmt::format("the plan {} has no participant \"{}\", but there is \"{}\"", options.plan,
                     *options.participant, *near),
         options);
+  else if (!is_planned_id(*options.participant, plan))
+    refuse_unless_new(plan, options);
 }
 
 // A group's participants must have the same protocol.
@@ -344,7 +358,7 @@ void add_run(Command& app) {
                    "the group");
   command.add_flag("--again", options->again,
                    "repeat a protocol that the participant has finished; or use an id "
-                   "that is similar to another's, as 1 and 01 are");
+                   "that is similar to another's, as 1 and 01 are, or not in the plan");
   command.does([options] { run(*options); });
 }
 
