@@ -43,6 +43,7 @@ NOT_RUN = [
     (r"^cmake --install", "install_test.py installs"),
     (r"^ctest\b.*\bdeb\b", "needs root and a network"),
     (r"^ctest\b", "runs tests"),
+    (r"^build-fuzz/", "is built by clang"),
     (r"^python3 (results|tests)/", "takes minutes, and writes into results/"),
 ]
 
@@ -105,6 +106,10 @@ class Parsed(SessionTest):
             self.assertIn(words[1], TREE)
         elif program in ("cmake", "ctest", "(cd"):
             self.parse_tools(words)
+        elif program.startswith("build-fuzz/"):
+            kind = program.rsplit("fuzz_")[-1]
+            self.assertIn(f"tests/fuzz/corpus/{kind}", words)
+            self.assertTrue((ROOT / "tests" / "fuzz" / "corpus" / kind).is_dir())
         else:
             self.fail(f"unknown command {program}: run it, or list it in NOT_RUN and look it up here")
 

@@ -28,16 +28,13 @@ struct FlowStep {
 std::vector<FlowStep> steps_of(const ParticipantFlow& flow) {
   int n_excluded = 0;
   for (const auto& [reason, n] : flow.excluded) n_excluded += n;
-  const int n_not_begun = flow.n_asked - flow.n_declined - flow.n_started;
+  const int n_not_begun = flow.n_asked - flow.n_withdrawn - flow.n_declined - flow.n_started;
   std::string not_started;
-  if (flow.n_declined > 0) not_started = fmt::format("{} declined", flow.n_declined);
-  if (n_not_begun > 0)
-    not_started += fmt::format("{}{} began no trial", not_started.empty() ? "" : ", ", n_not_begun);
+  for (const auto& [n, what] : {std::pair{flow.n_withdrawn, "withdrew (data removed)"},
+                                {flow.n_declined, "declined"},
+                                {n_not_begun, "began no trial"}})
+    if (n > 0) not_started += fmt::format("{}{} {}", not_started.empty() ? "" : ", ", n, what);
   const int n_unfinished = flow.n_started - flow.n_finished;
-  if (flow.n_withdrawn > 0)
-    not_started +=
-        fmt::format("{}beside them the data of {} withdrawn", not_started.empty() ? "" : "; ",
-                    heft::counted(flow.n_withdrawn, "session"));
   return {{fmt::format("{} asked (with a session in the log)", flow.n_asked), not_started},
           {fmt::format("{} started", flow.n_started),
            n_unfinished > 0

@@ -52,7 +52,7 @@ class PlanFold {
 /// Numbers of participants.
 struct ParticipantFlow {
   int n_asked = 0;                      ///< with a session in the log
-  int n_withdrawn = 0;                  ///< sessions whose data were withdrawn; not in n_asked
+  int n_withdrawn = 0;                  ///< of these, sessions whose data were removed
   int n_declined = 0;                   ///< did not agree to take part, in any session
   int n_started = 0;                    ///< began a trial
   int n_finished = 0;                   ///< finished a session

@@ -147,6 +147,7 @@ Summary analyze(const AnalysisOptions& options) {
   const auto each = [&](const std::function<void(const SessionData&)>& use) { sessions.each(use); };
   Summary summary = summarize(sessions.database(), each, options.command);
   summary.flow.n_withdrawn = sessions.n_withdrawn();
+  summary.flow.n_asked += summary.flow.n_withdrawn;
   summary.integrity = options.integrity;
   for (const std::string& note : {withdrawn_note(summary), unverified_note(summary)})
     if (!note.empty()) summary.notes.insert(summary.notes.begin(), note);

@@ -159,8 +159,7 @@ Table flow_table(const Summary& summary) {
     table.rows.push_back({word(std::move(step)), count(n), word(std::move(meaning))});
   };
   add("asked", flow.n_asked, "with a session in the log");
-  if (flow.n_withdrawn > 0)
-    add("withdrawn", flow.n_withdrawn, "sessions whose data were removed; not among those asked");
+  if (flow.n_withdrawn > 0) add("withdrawn", flow.n_withdrawn, "sessions whose data were removed");
   add("declined", flow.n_declined, "did not agree to take part");
   add("started", flow.n_started, "began a trial");
   for (const auto& [state, n] : flow.unfinished)
