@@ -1,5 +1,6 @@
 // A program that stands still anywhere in a person's session: the open trial is paused for that
 // time, and voided after a long one. The seed of what failed is printed.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "SourceFolder.h"

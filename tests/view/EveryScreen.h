@@ -51,7 +51,7 @@ inline ScreenState sorting_state(int n_slots) {
 inline ScreenState trial_state(const Task& task) {
   ScreenState state;
   state.screen = Screen::trial;
-  state.task = std::move(task);
+  state.task = task;
   state.n_slots = task == "sorting" ? 3 : 2;
   if (task == "sorting") labels_on(state).assign(3, std::nullopt);
   return state;
@@ -60,7 +60,7 @@ inline ScreenState trial_state(const Task& task) {
 inline ScreenState page_state(Screen screen, Task task = "sorting", double wait_s = 0) {
   ScreenState state;
   state.screen = screen;
-  state.task = task;
+  state.task = std::move(task);
   state.wait_s = wait_s;
   return state;
 }

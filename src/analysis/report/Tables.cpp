@@ -81,9 +81,10 @@ std::vector<Table> filled(std::vector<Table> tables) {
 }
 
 std::string headline(const Summary& summary) {
-  const std::string text = fmt::format(
-      "heft {}: {} of {} in {}", HEFT_VERSION, counted(summary.sessions.size(), "session"),
-      counted(static_cast<std::size_t>(summary.n_participants), "participant"), summary.database);
+  const std::string text =
+      fmt::format("heft {}: {} of {} in {}", HEFT_VERSION,
+                  counted(static_cast<std::int64_t>(summary.sessions.size()), "session"),
+                  counted(summary.n_participants, "participant"), summary.database);
   return titled(text, summary);
 }
 

@@ -52,6 +52,9 @@ class ApparatusCheck {
 std::vector<CheckResult> check_camera(Camera& camera, const Apparatus& apparatus,
                                       double wanted_rate_hz);
 
+/// Delays of --events on this machine, of each kind of outlet (OutletDelays.cpp).
+std::vector<CheckResult> outlet_verdicts();
+
 // Verdicts on a series of at least one picture.
 
 using Pictures = std::vector<LookedAt>;

@@ -25,6 +25,7 @@
 #include "physics/DecouplingSimulator.h"
 #include "protocol/readers/Files.h"
 #include "record/reader/LogReader.h"
+#include "replay/Replay.h"
 #include "responders/Responder.h"
 #include "session/Session.h"
 #include "tracking/calibration/ShutterCalibration.h"
@@ -195,7 +196,7 @@ void check_touch_delay(Report& report, const std::string& folder, const ScreenTe
 void check_log(Report& report, const std::string& db) {
   if (!std::filesystem::exists(db))
     return report.line(CheckVerdict::ok, "log", fmt::format("{} does not exist yet", db));
-  const std::vector<std::string> faults = check_integrity(db);
+  const std::vector<std::string> faults = faults_of_file(LogReader(db), db);
   if (faults.empty()) return report.line(CheckVerdict::ok, "log", fmt::format("{} is sound", db));
   for (const std::string& fault : faults) report.line(CheckVerdict::failed, "log", fault);
 }
@@ -278,6 +279,8 @@ void diagnose(const std::string& db, const SessionOptions& given, double rate_hz
   const ScreenTexts texts = load_texts(texts_file("en"));
   check_displays(report, texts);
   check_touch_delay(report, folder, texts);
+  for (const CheckResult& result : outlet_verdicts())
+    report.line(result.verdict, result.name, result.finding);
   if (given.tracker) check_tracker(report, given, rate_hz);
   print_next_steps();
   if (report.failed()) throw Error("this machine is not ready; see the lines marked FAILED");

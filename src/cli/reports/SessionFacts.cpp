@@ -40,8 +40,7 @@ SessionFacts facts_of(const LogReader& reader, const SessionRow& row) {
   }
   if (is_unfinished(row.state)) facts.planned_trials = planned_trials(reader, row);
   facts.place = place_of(row.header.participant_info);
-  for (const Seal& seal : reader.seals())
-    if (seal.session_id == row.session_id) facts.head = seal.head;
+  facts.head = reader.head_of(row.session_id);
   return facts;
 }
 

@@ -305,6 +305,14 @@ std::string LogReader::head() const {
   return all.empty() ? "" : all.back().head;
 }
 
+std::string LogReader::head_of(std::int64_t session_id) const {
+  const auto heads = impl_->rows([](Cells& cells) { return cells.text(); }, "seal",
+                                 "SELECT seal_id, head FROM seal WHERE session_id = ? ORDER BY "
+                                 "seal_id DESC LIMIT 1",
+                                 session_id);
+  return heads.empty() ? "" : heads.front();
+}
+
 std::optional<BrokenDigest> LogReader::first_broken_seal() const {
   return impl_->first_broken_seal();
 }

@@ -121,6 +121,8 @@ class LogReader {
   std::vector<Seal> seals() const;
   /// The log's head; empty if no session was sealed.
   std::string head() const;
+  /// The head when a session was last sealed; empty: never.
+  std::string head_of(std::int64_t session_id) const;
 
   /// The first fault in the chain of seals: a session that was removed, added, renumbered or
   /// swapped. The session's own contents are compared by first_broken_digest().

@@ -86,7 +86,8 @@ std::string tables() {
          "CREATE TABLE seal (\n  seal_id INTEGER PRIMARY KEY,\n  session_id INTEGER NOT NULL,\n  "
          "state TEXT NOT NULL REFERENCES list_state,\n  n_events INTEGER NOT NULL,\n  n_frames "
          "INTEGER NOT NULL,\n  info_digest TEXT NOT NULL,\n  digest TEXT NOT NULL,\n  head TEXT "
-         "NOT NULL\n) STRICT;\n";
+         "NOT NULL\n) STRICT;\n"
+         "CREATE INDEX seal_by_session ON seal (session_id);\n";
 }
 
 // v_trial: attempts with their configuration. v_jnd: estimates of stopped staircases. v_sorting:

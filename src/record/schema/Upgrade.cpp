@@ -79,6 +79,7 @@ void rename_to_version_7(SQLite::Database& database) {
 // Version 8 added the last column, `operator`.
 void add_operator(SQLite::Database& database) {
   database.exec(made_by("table seal"));
+  database.exec(made_by("index seal_by_session"));
   rebuild_table(database, "setup", "*, NULL");
 }
 
