@@ -23,6 +23,13 @@ TEST_F(Digest, HeaderWithRecomputedDigestMatchesNoEvent) {
       "event", 1);
 }
 
+TEST_F(Digest, ChangedAnswerAboutTheParticipantIsFound) {
+  SessionLog::reopen(original_, 2).add_info("age", "30");
+  for (const char* column : {"key", "value"})
+    expect_found(fmt::format("UPDATE participant_info SET {} = 'x' WHERE session_id = 2", column),
+                 "participant_info", 2);
+}
+
 TEST_F(Digest, RemovedRowIsFoundAtNext) {
   expect_found("DELETE FROM event WHERE event_id = 2", "event", 3);
   expect_found("DELETE FROM frame WHERE frame_id = 1", "frame", 2);
