@@ -96,12 +96,7 @@ std::vector<double> times_of(const std::string& folder, const std::vector<std::s
       times.push_back(static_cast<double>(i) / rate_without_times_hz);
     return times;
   }
-  const auto by_name = read_times(file);
-  for (const auto& [name, t_s] : by_name)
-    if (std::ranges::find(names, name) == names.end())
-      throw Error(fmt::format("{} has a time for {}, but {} has no such picture; restore it, or "
-                              "remove its line",
-                              file, name, folder));
+  auto by_name = read_times(file);
   for (const std::string& name : names) {
     const auto found = by_name.find(name);
     if (found == by_name.end())
@@ -113,7 +108,12 @@ std::vector<double> times_of(const std::string& folder, const std::vector<std::s
                       "their names, but {} at {} s comes after {} s",
                       file, name, found->second, times.back()));
     times.push_back(found->second);
+    by_name.erase(found);
   }
+  if (!by_name.empty())
+    throw Error(fmt::format("{} has a time for {}, but {} has no such picture; restore it, or "
+                            "remove its line",
+                            file, by_name.begin()->first, folder));
   return times;
 }
 
