@@ -42,12 +42,20 @@ void make_backup_folder(const fs::path& folder) {
   fs::permissions(folder, fs::perms::owner_all, error);  // ignored on disks without permissions
 }
 
-// Copies of this session that were cut off: the writer's lock of a session that is backed up is
-// taken, so no other program makes one.
-void remove_cut_off(const fs::path& folder, const std::string& session) {
+// "P07_session7_": how the names of a session's copies begin. Special characters become "_".
+std::string backup_stem(const std::string& participant, std::int64_t session_id) {
+  constexpr std::size_t longest = 60;
+  std::string who;
+  for (const char c : participant.substr(0, longest))
+    who += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
+  return fmt::format("{}_session{}_", who, session_id);
+}
+
+// Removes copies of a session that were cut off.
+void remove_cut_off(const fs::path& folder, const std::string& stem) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with(session) && (name.ends_with(".part") || name.ends_with(".part-journal")))
+    if (name.starts_with(stem) && (name.ends_with(".part") || name.ends_with(".part-journal")))
       fs::remove(entry.path());
   }
 }
@@ -114,15 +122,11 @@ class Part {
 
 std::string backup_name(const std::string& participant, std::int64_t session_id,
                         const std::string& utc, const std::string& head) {
-  constexpr std::size_t longest = 60;
-  std::string who;
-  for (const char c : participant.substr(0, longest))
-    who += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' ? c : '_';
   std::string when;
   for (const char c : utc.substr(0, utc.find('.')))
     if (c != '-' && c != ':' && c != 'Z') when += c;
-  return fmt::format("{}_session{}_{}Z{}{}", who, session_id, when, head.empty() ? "" : "_",
-                     short_head(head));
+  return fmt::format("{}{}Z{}{}", backup_stem(participant, session_id), when,
+                     head.empty() ? "" : "_", short_head(head));
 }
 
 void require_backup_folder(const std::string& folder) try {
@@ -142,8 +146,7 @@ std::string back_up(const std::string& db, const std::string& folder, std::int64
   const LogReader log(db);
   const std::string who = log.session(session_id).header.participant;
   const std::string name = backup_name(who, session_id, utc_now(), log.head());
-  constexpr std::string_view until_time = "_session";
-  remove_cut_off(folder, name.substr(0, name.find('_', name.rfind(until_time) + until_time.size())));
+  remove_cut_off(folder, backup_stem(who, session_id));
   const std::string path = make_part(folder, name);
   const std::string made = path + ".part";
   Part part(made);
