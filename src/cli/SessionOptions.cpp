@@ -255,6 +255,8 @@ void report_dropped(const EventOutlet& events, const std::string& where) {
 }
 
 void say_head(const SessionResult& result, const std::string& db) {
+  if (result.head.empty())
+    return say("{} is locked by another program; the next session seals this one\n", db);
   say("head of the log: {0}; note it in the lab book\n"
       "check the log with it: heft replay --db {1} --witness {0}\n",
       short_head(result.head), shell_quoted(db));

@@ -72,12 +72,19 @@ RunEnd run_with(Equipment& equipment, Engine& engine, EventSink& sink, const Run
   return Runner(parts, runner).run();
 }
 
-// Seals the session. Fails if the file was moved or deleted.
-SessionResult close(const Engine& engine, RunEnd end, SessionLog& log,
+// Everything is on disk. If another process locks the database now, the next session seals this
+// one.
+// @return the log's head; empty if it is locked
+std::string sealed(SessionLog& log) try { return log.seal(); } catch (const LogBusy&) {
+  return "";
+}
+
+// Fails if the file was moved or deleted.
+SessionResult close(const Engine& engine, RunEnd end, SessionLog& log, EventSink& sink,
                     std::optional<AnnouncingSink>& announcing) {
-  if (announcing) announcing->flush();
-  const std::string head = log.seal();
-  if (announcing) announcing->announce_head(engine.last_s(), head);
+  sink.flush();
+  const std::string head = sealed(log);
+  if (announcing && !head.empty()) announcing->announce_head(engine.last_s(), head);
   return {end, log.session_id(), engine.last_s(), engine.n_completed(), head};
 }
 
@@ -169,7 +176,7 @@ SessionResult start_session(const SessionRequest& request, const RunnerOptions& 
   EventSink& sink = heard_by_others(announcing, log, runner, request.participant);
   if (announcing) announcing->announce(first.event, first.changes);
   const RunEnd end = run_with(equipment, engine, sink, runner, 0);
-  return close(engine, end, log, announcing);
+  return close(engine, end, log, sink, announcing);
 }
 
 LoggedSession session_to_resume(const std::string& db, std::optional<std::int64_t> session_id) {
@@ -210,14 +217,15 @@ SessionResult resume_session(const LoggedSession& session, const ResolvedConfig&
   sink.flush();  // the whole resumption or nothing
   const RunEnd end = run_with(equipment, reopened.engine, sink, runner, now_s,
                               resume_state(reopened.events, session.row.header.participant_info));
-  return close(reopened.engine, end, reopened.log, announcing);
+  return close(reopened.engine, end, reopened.log, sink, announcing);
 }
 
 void abort_session(const LoggedSession& session) {
   Reopened reopened(session);
   reopened.close_attempt("aborted");
   reopened.append({reopened.engine.last_s(), SessionEnded{Ending::aborted}});
-  reopened.log.seal();
+  reopened.log.flush();
+  sealed(reopened.log);
 }
 
 RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner) {

@@ -203,6 +203,27 @@ TEST_F(Resumed, ASessionWithoutATrialSaysWhatItIsRunWith) {
   expect_verified();
 }
 
+// Another program locks the database when the last answer has been written.
+TEST_F(Resumed, FinishedSessionInALockedLogIsSealedByTheNext) {
+  std::optional<SQLite::Database> other;
+  RunnerOptions runner;
+  runner.progress = [&](const Engine& engine) {
+    if (engine.state() != SessionState::finished) return;
+    other.emplace(request.db, SQLite::OPEN_READWRITE);
+    other->exec("BEGIN IMMEDIATE");
+  };
+  const SessionResult result = start_session(request, runner);
+  EXPECT_EQ(result.end, RunEnd::finished);
+  EXPECT_EQ(result.head, "");
+  other.reset();
+  EXPECT_EQ(LogReader(request.db).session(1).state, SessionState::finished);
+  EXPECT_TRUE(LogReader(request.db).seals().empty());
+  request.participant = "another";
+  EXPECT_NE(start_session(request, {}).head, "");
+  EXPECT_EQ(LogReader(request.db).seals().front().session_id, 1);
+  expect_verified();
+}
+
 TEST_F(Resumed, IsNoLogThatIsNotAsItWasWritten) {
   for (const char* sql : {"UPDATE session SET run_options = '{}'", "CREATE TABLE loot (text TEXT)",
                           "CREATE VIEW loot AS SELECT 1 AS one",
