@@ -116,9 +116,9 @@ Chart tracks_chart(const Summary& summary) {
   const SessionTracks* example = example_of(summary.all_tracks);
   if (!example) return chart;
   const SessionTracks& session = *example;
-  const std::string marks = marked(session.simulated ? "simulated" : "", summary);
-  chart.title = fmt::format("Staircases of session {}, {}{}", session.session_id,
-                            session.participant, marks.empty() ? "" : " (" + marks + ")");
+  chart.title =
+      titled(fmt::format("Staircases of session {}, {}", session.session_id, session.participant),
+             session.simulated ? "simulated" : "", summary);
   chart.caption =
       "One session's staircases in full; all sessions' follow. Dashed: the paper's JND, \"> \" or "
       "\"< \" where it is censored. Filled: the heavier cube was chosen; cross: the lighter one; "

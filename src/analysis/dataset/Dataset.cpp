@@ -98,11 +98,8 @@ SessionData join_rows(const SessionRow& session, const SessionRows& rows) {
 PictureCounts count_pictures(const std::vector<LoggedEvent>& events) {
   PictureCounts counts;
   for (const LoggedEvent& logged : events)
-    if (const auto* report = logged.event.as<CameraReport>()) {
-      counts.shown += report->n_shown;
-      counts.dropped += report->n_dropped;
-      counts.late += report->n_late;
-    }
+    if (const auto* report = logged.event.as<CameraReport>())
+      counts += {report->n_shown, report->n_dropped, report->n_late};
   return counts;
 }
 
@@ -205,13 +202,12 @@ LoggedSessions::LoggedSessions(const std::vector<std::string>& databases,
     OneLog& log =
         logs_.emplace_back(OneLog{database, LogReader(database), {named.begin(), named.end()}});
     if (log.session_ids.empty()) log.session_ids = log.reader.session_ids();
-    std::erase_if(log.session_ids, [&](std::int64_t id) {
-      const bool is_withdrawn = log.reader.session(id).state == SessionState::withdrawn;
-      n_withdrawn_ += is_withdrawn ? 1 : 0;
+    n_withdrawn_ += static_cast<int>(std::erase_if(log.session_ids, [&](std::int64_t id) {
+      const SessionRow session = log.reader.session(id);
+      const bool is_withdrawn = session.state == SessionState::withdrawn;
+      if (!is_withdrawn) purposes_[std::string(name_of(session.header.purpose))] += 1;
       return is_withdrawn;
-    });
-    for (const std::int64_t id : log.session_ids)
-      purposes_[std::string(name_of(log.reader.session(id).header.purpose))] += 1;
+    }));
   }
 }
 

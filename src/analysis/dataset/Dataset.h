@@ -37,6 +37,13 @@ std::optional<double> response_time_s(const TrialRow& trial);
 /// Camera pictures of a session with a participant.
 struct PictureCounts {
   int shown = 0, dropped = 0, late = 0;
+
+  PictureCounts& operator+=(const PictureCounts& more) {
+    shown += more.shown;
+    dropped += more.dropped;
+    late += more.late;
+    return *this;
+  }
 };
 
 /// How well the effector of a session was tracked.

@@ -75,9 +75,11 @@ void FlowFold::add(const SessionData& data) {
   way.last = data.session.state;
 }
 
-ParticipantFlow FlowFold::result(std::span<const ParticipantRow> participants) const {
+ParticipantFlow FlowFold::result(std::span<const ParticipantRow> participants,
+                                 int n_withdrawn) const {
   ParticipantFlow flow;
-  flow.n_asked = static_cast<int>(ways_.size());
+  flow.n_asked = static_cast<int>(ways_.size()) + n_withdrawn;
+  flow.n_withdrawn = n_withdrawn;
   for (const auto& [participant, way] : ways_) {
     flow.n_declined += way.declined && !way.agreed && !way.started ? 1 : 0;
     flow.n_started += way.started ? 1 : 0;

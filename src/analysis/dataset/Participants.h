@@ -69,7 +69,8 @@ class FlowFold {
  public:
   void add(const SessionData& data);
   /// @param participants all, of the same sessions
-  ParticipantFlow result(std::span<const ParticipantRow> participants) const;
+  /// @param n_withdrawn sessions without data, which were not added
+  ParticipantFlow result(std::span<const ParticipantRow> participants, int n_withdrawn = 0) const;
 
  private:
   struct Way {

@@ -102,9 +102,7 @@ void count_session(Sums& sums, const SessionData& data) {
   sums.events.checks_failed += data.events.checks_failed;
   sums.events.checks_warned += data.events.checks_warned;
   sums.events.unblindings += data.events.unblindings;
-  sums.pictures.shown += data.pictures.shown;
-  sums.pictures.dropped += data.pictures.dropped;
-  sums.pictures.late += data.pictures.late;
+  sums.pictures += data.pictures;
   sums.n_sessions += 1;
   sums.n_unfinished += data.finished() ? 0 : 1;
 }

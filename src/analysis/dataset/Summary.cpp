@@ -106,22 +106,19 @@ CountedFold counted_of(CountedFold&& all, const EachSession& each,
   return counted;
 }
 
-Summary summarize(const std::string& database, const EachSession& each,
-                  const std::string& command) {
+// @param summary with database, command and integrity  @param n_withdrawn sessions without data
+Summary summarize(Summary summary, const EachSession& each, int n_withdrawn) {
   EverybodyFold everybody;
   CountedFold all;
   each([&](const SessionData& data) {
     everybody.add(data);
     all.add(data);
   });
-  Summary summary;
-  summary.database = database;
-  summary.command = command;
   summary.data = everybody.kind_of_data();
   summary.participants = everybody.participants.result();
   summary.plan = everybody.plan.result();
   summary.quality = everybody.quality.result();
-  summary.flow = everybody.flow.result(summary.participants);
+  summary.flow = everybody.flow.result(summary.participants, n_withdrawn);
   summary.choices = everybody.choices.result();
   summary.setups = everybody.setups.result();
   summary.incidents = everybody.incidents.result();
@@ -138,20 +135,21 @@ Summary summarize(const Dataset& dataset, const std::string& command) {
   const auto each = [&](const std::function<void(const SessionData&)>& use) {
     std::ranges::for_each(dataset.sessions, use);
   };
-  return summarize(dataset.database, each, command);
+  Summary summary;
+  summary.database = dataset.database;
+  summary.command = command;
+  return summarize(std::move(summary), each, 0);
 }
 
 Summary analyze(const AnalysisOptions& options) {
   const LoggedSessions sessions(options.databases, options.session_ids);
   if (!options.mix) refuse_mixed_purposes(sessions);
   const auto each = [&](const std::function<void(const SessionData&)>& use) { sessions.each(use); };
-  Summary summary = summarize(sessions.database(), each, options.command);
-  summary.flow.n_withdrawn = sessions.n_withdrawn();
-  summary.flow.n_asked += summary.flow.n_withdrawn;
+  Summary summary;
+  summary.database = sessions.database();
+  summary.command = options.command;
   summary.integrity = options.integrity;
-  for (const std::string& note : {withdrawn_note(summary), unverified_note(summary)})
-    if (!note.empty()) summary.notes.insert(summary.notes.begin(), note);
-  return summary;
+  return summarize(std::move(summary), each, sessions.n_withdrawn());
 }
 
 }  // namespace heft

@@ -20,17 +20,16 @@ std::string simulated_note(const Summary& summary) {
   return "Figures of people and of simulated responders are mixed.";
 }
 
+namespace {
+std::string unverified_note(const Summary& summary) {
+  return summary.integrity.is_verified ? "" : std::string(unverified_warning);
+}
+
 std::string withdrawn_note(const Summary& summary) {
   const int n = summary.flow.n_withdrawn;
   return n == 0 ? "" : fmt::format("Withdrawn: the data of {}.", counted(n, "session"));
 }
 
-std::string unverified_note(const Summary& summary) {
-  if (summary.integrity.is_verified) return "";
-  return "NOT VERIFIED: whether the log was changed was not checked (--unverified).";
-}
-
-namespace {
 std::string unfinished_note(const Summary& summary) {
   std::vector<std::string> sessions;
   for (const SessionSummary& session : summary.sessions)
@@ -70,9 +69,7 @@ void NotesFold::add(const SessionData& data) {
   if (std::ranges::any_of(data.setups,
                           [](const auto& s) { return s.setup.tracker.name == "mouse"; }))
     dragged_.push_back(fmt::format("{} ({})", data.session.session_id, header.participant));
-  pictures_.shown += data.pictures.shown;
-  pictures_.dropped += data.pictures.dropped;
-  pictures_.late += data.pictures.late;
+  pictures_ += data.pictures;
 }
 
 std::string NotesFold::repeated_note() const {
@@ -121,9 +118,10 @@ std::string NotesFold::pictures_note() const {
 
 std::vector<std::string> NotesFold::result(const Summary& summary) const {
   std::vector<std::string> notes{
-      simulated_note(summary), missing_note(summary), unfinished_note(summary),
-      excluded_note(summary),  repeated_note(),       protocols_note(),
-      other_methods_note(),    dragged_note(),        pictures_note()};
+      unverified_note(summary), withdrawn_note(summary),  simulated_note(summary),
+      missing_note(summary),    unfinished_note(summary), excluded_note(summary),
+      repeated_note(),          protocols_note(),         other_methods_note(),
+      dragged_note(),           pictures_note()};
   std::erase(notes, "");
   return notes;
 }

@@ -55,12 +55,6 @@ class NotesFold {
   PictureCounts pictures_;
 };
 
-/// Empty if no data were withdrawn.
-std::string withdrawn_note(const Summary& summary);
-
-/// Empty if the logs were verified.
-std::string unverified_note(const Summary& summary);
-
 /// Points of percent beside chance that count as chance: the protocol's, or 10.
 double equivalence_margin_percent(const Summary& summary);
 

@@ -112,7 +112,8 @@ figure { margin: 1.5rem 0; break-inside: avoid; }
 figcaption { font-size: 0.9rem; max-width: 60rem; }
 nav ul { columns: 2; font-size: 0.9rem; }
 h2, h3 { break-after: avoid; }
-@media print { .unverified { position: fixed; top: 0; right: 0; margin: 0; } body { max-width: none; margin: 0; font-size: 11px; } nav { display: none; }
+@media print { body { max-width: none; margin: 0; font-size: 11px; } nav { display: none; }
+  .unverified { position: fixed; top: 0; right: 0; margin: 0; }
   table { display: table; } a { color: inherit; text-decoration: none; } }
 @page { size: A4; margin: 15mm; }
 )";

@@ -38,7 +38,11 @@ std::string hypotheses_text(const Summary& summary) {
 }  // namespace
 
 std::string titled(std::string_view title, const Summary& summary) {
-  const std::string marks = marked(summary.simulated() ? summary.data : "", summary);
+  return titled(title, summary.simulated() ? summary.data : "", summary);
+}
+
+std::string titled(std::string_view title, const std::string& data, const Summary& summary) {
+  const std::string marks = marked(data, summary);
   return marks.empty() ? std::string(title) : fmt::format("{} ({})", title, marks);
 }
 

@@ -28,6 +28,8 @@ std::string headline(const Summary& summary);
 
 /// "Sorting" becomes "Sorting (simulated)" where it is.
 std::string titled(std::string_view title, const Summary& summary);
+/// The same for a part of the data. @param data "simulated"; empty: of persons
+std::string titled(std::string_view title, const std::string& data, const Summary& summary);
 
 /// "simulated" becomes "simulated, NOT VERIFIED" if the logs were not verified.
 std::string marked(const std::string& data, const Summary& summary);

@@ -25,12 +25,12 @@ std::string seconds_of(const std::string& utc) {
 }
 
 // Empty without a live camera.
-std::string pictures_text(const CameraReport& pictures) {
-  if (pictures.n_shown + pictures.n_dropped == 0) return "";
+std::string pictures_text(const PictureCounts& pictures) {
+  if (pictures.shown + pictures.dropped == 0) return "";
   const auto percent = [](int n, int of) { return of > 0 ? 100.0 * n / of : 0; };
   return fmt::format("{:.1f} %, {:.1f} %",
-                     percent(pictures.n_dropped, pictures.n_shown + pictures.n_dropped),
-                     percent(pictures.n_late, pictures.n_shown));
+                     percent(pictures.dropped, pictures.shown + pictures.dropped),
+                     percent(pictures.late, pictures.shown));
 }
 
 Line line_of(const SessionFacts& facts) {

@@ -92,10 +92,10 @@ void print_head(const SessionFacts& facts) {
         header.started_utc);
 }
 
-void print_pictures(const CameraReport& pictures) {
-  if (pictures.n_shown + pictures.n_dropped == 0) return;
-  print("camera pictures: {} shown, {} of them late; {} dropped\n", pictures.n_shown,
-        pictures.n_late, pictures.n_dropped);
+void print_pictures(const PictureCounts& pictures) {
+  if (pictures.shown + pictures.dropped == 0) return;
+  print("camera pictures: {} shown, {} of them late; {} dropped\n", pictures.shown, pictures.late,
+        pictures.dropped);
 }
 
 void print_progress(const std::vector<TrialRow>& trials) {
@@ -180,8 +180,7 @@ void print_course(const std::vector<LoggedEvent>& events) {
 void print_info(const SessionRow& row) {
   const auto reported = participant_reports(row);
   if (!reported.empty()) print("\nreported by the participant\n");
-  for (const auto& [key, value] : reported)
-    print("  {}: {}\n", readable(key), readable(value));
+  for (const auto& [key, value] : reported) print("  {}: {}\n", readable(key), readable(value));
 }
 
 // Columns only: the contents of files are long, and in the log.

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/dataset/Dataset.h"
 #include "apparatus/StudyPlaces.h"
 #include "base/Error.h"
 #include "experiment/ScreenTexts.h"
@@ -28,9 +29,9 @@ struct SessionFacts {
   int n_completed = 0, n_void = 0;       ///< attempts
   std::optional<double> planned_trials;  ///< approximately; none: the protocol cannot be read
   double duration_s = 0;                 ///< session time
-  CameraReport pictures;                 ///< of all attempts
-  std::optional<LoggedPlace> place;      ///< in a study
-  std::string head;                      ///< of the log, when the session was last sealed
+  PictureCounts pictures;
+  std::optional<LoggedPlace> place;  ///< in a study
+  std::string head;                  ///< of the log, when the session was last sealed
 };
 
 SessionFacts facts_of(const LogReader& reader, const SessionRow& row);

@@ -30,14 +30,9 @@ SessionFacts facts_of(const LogReader& reader, const SessionRow& row) {
     facts.n_completed += trial.status == TrialStatus::completed ? 1 : 0;
     facts.n_void += trial.status == TrialStatus::voided ? 1 : 0;
   }
-  for (const LoggedEvent& logged : reader.events(row.session_id)) {
-    facts.duration_s = logged.event.t_s;
-    if (const auto* report = logged.event.as<CameraReport>()) {
-      facts.pictures.n_shown += report->n_shown;
-      facts.pictures.n_dropped += report->n_dropped;
-      facts.pictures.n_late += report->n_late;
-    }
-  }
+  const auto events = reader.events(row.session_id);
+  if (!events.empty()) facts.duration_s = events.back().event.t_s;
+  facts.pictures = count_pictures(events);
   if (is_unfinished(row.state)) facts.planned_trials = planned_trials(reader, row);
   facts.place = place_of(row.header.participant_info);
   facts.head = reader.head_of(row.session_id);
@@ -63,9 +58,9 @@ nlohmann::ordered_json as_json(const SessionFacts& facts) {
                               {"planned_trials", nullptr},
                               {"started_utc", header.started_utc},
                               {"duration_s", facts.duration_s},
-                              {"n_pictures", facts.pictures.n_shown},
-                              {"n_dropped", facts.pictures.n_dropped},
-                              {"n_late", facts.pictures.n_late},
+                              {"n_pictures", facts.pictures.shown},
+                              {"n_dropped", facts.pictures.dropped},
+                              {"n_late", facts.pictures.late},
                               {"head", facts.head},
                               {"study", nullptr}};
   if (facts.planned_trials) json["planned_trials"] = *facts.planned_trials;
