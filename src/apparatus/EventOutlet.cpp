@@ -211,23 +211,24 @@ AnnouncingSink::AnnouncingSink(EventSink& log, EventOutlet& outlet, std::int64_t
                                std::string participant)
     : log_(log), outlet_(outlet), session_id_(session_id), participant_(std::move(participant)) {}
 
+std::string AnnouncingSink::utc_at(double t_s) {
+  if (!zero_) zero_ = std::chrono::system_clock::now() - as_duration(t_s);
+  return utc_of(*zero_ + as_duration(t_s));
+}
+
 std::string AnnouncingSink::line_of(const Event& event, const Changes& changes,
                                     std::optional<bool> logged) {
-  if (!zero_) zero_ = std::chrono::system_clock::now() - as_duration(event.t_s);
   if (changes.trial) {
     attempt_index_ = changes.attempt_index;
     plan_ = changes.trial->plan;
   }
-  AnnouncedEvent about{session_id_, participant_, utc_of(*zero_ + as_duration(event.t_s)), {}};
+  AnnouncedEvent about{session_id_, participant_, utc_at(event.t_s), {}, logged};
   if (changes.attempt_index > 0 && changes.attempt_index == attempt_index_) about.plan = plan_;
-  about.logged = logged;
   return event_line(event, about);
 }
 
 void AnnouncingSink::announce_head(double t_s, const std::string& head) {
-  const auto now = std::chrono::system_clock::now();
-  outlet_.send(sealed_line(
-      {session_id_, participant_, utc_of(zero_ ? *zero_ + as_duration(t_s) : now), {}}, t_s, head));
+  outlet_.send(sealed_line({session_id_, participant_, utc_at(t_s), {}}, t_s, head));
 }
 
 void AnnouncingSink::announce(const Event& event, const Changes& changes) {

@@ -75,6 +75,7 @@ class AnnouncingSink final : public EventSink {
   void flush() override;
 
  private:
+  std::string utc_at(double t_s);
   std::string line_of(const Event& event, const Changes& changes, std::optional<bool> logged = {});
   void send_waiting();
 

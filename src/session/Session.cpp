@@ -93,8 +93,8 @@ void refuse_changed_log(const LogReader& reader, const LoggedSession& session) {
   std::string why;
   if (const auto foreign = reader.foreign_objects(); !foreign.empty())
     why = fmt::format("its schema has an unknown object: {}", foreign.front());
-  else if (const auto broken = reader.first_broken_seal())
-    why = fmt::format("{} does not follow from the one before it", broken->row);
+  else if (const auto fault = fault_of_chain(reader))
+    why = *fault;
   else if (const Verification found = verify_rows(reader, session.row.session_id); found.first)
     why = fmt::format("{} is {}, but its events give {}", found.first->what, found.first->logged,
                       found.first->came_out);

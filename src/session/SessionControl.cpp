@@ -98,17 +98,28 @@ void SessionControl::refuse_stale() {
 void SessionControl::pause_for_database() {
   if (!journal_.clock().is_wall() || journal_.engine().state() != SessionState::running) return;
   // Since the program waits for the lock.
-  journal_.emit({std::max(alive_s_, journal_.engine().last_s()),
-                 SessionPaused{std::string(database_locked)}},
-                Durability::acknowledged);
+  journal_.emit(
+      {std::max(alive_s_, journal_.engine().last_s()), SessionPaused{std::string(database_locked)}},
+      Durability::acknowledged);
   paused_for_database_ = true;
 }
 
 void SessionControl::continue_after_database() {
   if (!std::exchange(paused_for_database_, false)) return;
+  continue_if_free();
+}
+
+// Ends a pause that the experimenter neither holds nor must end.
+void SessionControl::continue_if_free() {
   const Engine& engine = journal_.engine();
   const bool is_paused = engine.state() == SessionState::paused;
   if (is_paused && !holding_ && !engine.needs_experimenter()) journal_.emit_now(SessionContinued{});
+}
+
+void SessionControl::show_pause() {
+  ScreenState screen = journal_.engine().screen();
+  screen.screen = Screen::paused;
+  screen_.present({}, screen);
 }
 
 bool SessionControl::gives_up_after(double waited_s) const {
@@ -119,11 +130,7 @@ bool SessionControl::gives_up_after(double waited_s) const {
 // Touches meanwhile are ignored.
 void SessionControl::stand_still(bool is_locked) {
   if (is_locked) status.trouble = std::string(database_locked) + "; retrying";
-  if (journal_.clock().is_wall()) {
-    ScreenState screen = journal_.engine().screen();
-    screen.screen = Screen::paused;
-    screen_.present({}, screen);
-  }
+  if (journal_.clock().is_wall()) show_pause();
   poll(holding_step_s);
   if (is_locked) status.trouble.clear();
 }
@@ -182,19 +189,16 @@ void SessionControl::stood_still_since(double from_s, const std::string& why) {
   alive_s_ = journal_.now_s();
   if (engine.trial_is_open() && alive_s_ - from_s > void_after_s_)
     journal_.emit_now(TrialVoided{why});
-  if (!holding_ && !engine.needs_experimenter()) journal_.emit_now(SessionContinued{});
+  continue_if_free();
 }
 
 // The participant sees the pause while the program is suspended.
 void SessionControl::suspend() {
-  const Engine& engine = journal_.engine();
   const double from_s = journal_.now_s();
-  const bool pauses = engine.state() == SessionState::running;
+  const bool pauses = journal_.engine().state() == SessionState::running;
   if (pauses) journal_.emit_now(SessionPaused{"suspended"});
   journal_.flush();
-  ScreenState screen = engine.screen();
-  screen.screen = Screen::paused;
-  screen_.present({}, screen);
+  show_pause();
   stop_process_();
   if (pauses) stood_still_since(from_s, "suspended");
 }

@@ -151,6 +151,8 @@ class SessionControl {
   std::vector<Touch> poll(double seconds);
   void note_window();
   void suspend();
+  void show_pause();
+  void continue_if_free();
   void stood_still_since(double from_s, const std::string& why);
   void obey(const ConsoleCommand& command);
   void veto(const std::string& why);

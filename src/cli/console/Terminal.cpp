@@ -115,28 +115,8 @@ void set(const termios& settings) {
   tcsetattr(STDIN_FILENO, TCSANOW, &settings);
 }
 
-// Calls only async-signal-safe functions.
-void stop_process() {
-  const int error = errno;
-  if (is_raw.exchange(false)) {
-    set(as_it_was);
-    constexpr std::string_view clear = "\r\033[J";
-    [[maybe_unused]] const auto written = write(STDERR_FILENO, clear.data(), clear.size());
-  }
-  struct sigaction now {};
-  sigaction(SIGTSTP, &stopping_before, &now);
-  raise(SIGTSTP);
-  sigset_t stopping, blocked;
-  sigemptyset(&stopping);
-  sigaddset(&stopping, SIGTSTP);
-  pthread_sigmask(SIG_UNBLOCK, &stopping, &blocked);  // stops here, until continued
-  pthread_sigmask(SIG_SETMASK, &blocked, nullptr);
-  sigaction(SIGTSTP, &now, nullptr);
-  errno = error;
-}
-
 void on_suspend(int) {
-  if (suspend_requested.exchange(true)) stop_process();
+  if (suspend_requested.exchange(true)) SuspendOnSignal::stop_now();
 }
 
 // Another program may have changed the terminal meanwhile; listens() checks.
@@ -166,8 +146,24 @@ std::atomic<bool>& SuspendOnSignal::requested() const {
   return suspend_requested;
 }
 
+// Calls only async-signal-safe functions.
 void SuspendOnSignal::stop_now() {
-  stop_process();
+  const int error = errno;
+  if (is_raw.exchange(false)) {
+    set(as_it_was);
+    constexpr std::string_view clear = "\r\033[J";
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, clear.data(), clear.size());
+  }
+  struct sigaction now {};
+  sigaction(SIGTSTP, &stopping_before, &now);
+  raise(SIGTSTP);
+  sigset_t stopping, blocked;
+  sigemptyset(&stopping);
+  sigaddset(&stopping, SIGTSTP);
+  pthread_sigmask(SIG_UNBLOCK, &stopping, &blocked);  // stops here, until continued
+  pthread_sigmask(SIG_SETMASK, &blocked, nullptr);
+  sigaction(SIGTSTP, &now, nullptr);
+  errno = error;
 }
 
 RawTerminal::RawTerminal() : is_there_(isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1) {
