@@ -223,17 +223,21 @@ Verification verify_rows(const LogReader& reader, std::int64_t session_id) {
   return Verifier(reader, session_id).rows();
 }
 
+std::optional<std::string> fault_of_chain(const LogReader& reader) {
+  const auto broken = reader.first_broken_seal();
+  if (!broken) return std::nullopt;
+  if (!broken->damage.empty()) return fmt::format("{} is {}", broken->row, broken->damage);
+  return fmt::format(
+      "{} does not follow: sessions were removed, added, renumbered or swapped "
+      "(logged: {}, found: {})",
+      broken->row, broken->logged, broken->recomputed);
+}
+
 std::vector<std::string> faults_of_file(const LogReader& reader, const std::string& db) {
   std::vector<std::string> faults;
   for (const std::string& fault : check_integrity(db))
     faults.push_back("the file is damaged: " + fault);
-  if (const auto broken = reader.first_broken_seal())
-    faults.push_back(
-        broken->damage.empty()
-            ? fmt::format("{} does not follow: sessions were removed, added, renumbered or "
-                          "swapped (logged: {}, found: {})",
-                          broken->row, broken->logged, broken->recomputed)
-            : fmt::format("{} is {}", broken->row, broken->damage));
+  if (const auto fault = fault_of_chain(reader)) faults.push_back(*fault);
   return faults;
 }
 

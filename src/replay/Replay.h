@@ -43,6 +43,9 @@ Verification verify_session(const LogReader& reader, std::int64_t session_id,
 /// Everything except the simulation of frames.
 Verification verify_rows(const LogReader& reader, std::int64_t session_id);
 
+/// The first fault in the chain of seals, in words.
+std::optional<std::string> fault_of_chain(const LogReader& reader);
+
 /// A log as a whole: pages, constraints, references and the chain of seals.
 /// @return a message for each fault
 std::vector<std::string> faults_of_file(const LogReader& reader, const std::string& db);

@@ -285,7 +285,7 @@ class Privacy(Integrity):
             self.assertEqual(mode & 0o077, 0, f"{path}: {mode:o}")
 
     # By everything but the measurements: ids, seeds, order of rows, dates. A simulated participant's
-    # drawn parameters tell who is who.
+    # drawn parameters identify them.
     def test_a_pseudonymised_export_tells_nothing_about_who_took_part_when(self):
         n, n_exports = 26, 4
         self.run_heft("simulate", TINY, "--participants", n, "--db", self.db, "--seed", SEED)

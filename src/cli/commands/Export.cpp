@@ -92,7 +92,7 @@ void add_export(Command& app) {
        "with the key, so that a person has the same name in each export with it). It omits seeds, "
        "typed texts and file names, keeps only numbers of what participants reported, and only the "
        "year of dates. Sessions and all rows get fresh ids in a random order of persons. Answers "
-       "and times remain: who has another export with names can match them.",
+       "and times remain: anyone with an export with names can match them.",
        "",
        "The key is a line of 64 hexadecimal digits, created if its file is missing. To make your "
        "own:",

@@ -37,6 +37,7 @@ struct ReplayOptions {
   bool rerun = false, json = false, tables = false;
   bool supposes() const { return simulator || !set.empty(); }
   bool judges() const { return responder && !rerun; }
+  bool verifies() const { return !responder && !supposes() && !view; }
   bool compares_paths() const { return supposes() && !rerun && !view; }
 };
 
@@ -69,8 +70,7 @@ void check(const ReplayOptions& options) {
     refuse(
         "--tables requires --set, --simulator or a --responder, without --rerun, --view and "
         "--json");
-  if (!options.witness.empty() &&
-      (options.session || options.responder || options.supposes() || options.view))
+  if (!options.witness.empty() && (options.session || !options.verifies()))
     refuse("--witness verifies the whole log, without other options");
   if (options.json && !options.judges()) refuse("--json requires a --responder without --rerun");
   if (options.view && options.responder)
@@ -81,17 +81,15 @@ void check(const ReplayOptions& options) {
 
 // Withdrawn sessions are only verified.
 std::vector<std::int64_t> chosen_sessions(const LogReader& reader, const ReplayOptions& options) {
-  const bool only_verifies =
-      !options.judges() && !options.rerun && !options.supposes() && !options.view;
   if (options.session) {
     const SessionRow row = reader.session(*options.session);
-    if (row.state == SessionState::withdrawn && !only_verifies)
+    if (row.state == SessionState::withdrawn && !options.verifies())
       throw Error(fmt::format("the data of session {} were withdrawn", row.session_id));
     return {row.session_id};
   }
   std::vector<std::int64_t> ids;
   for (const SessionRow& row : reader.sessions())
-    if (row.state != SessionState::withdrawn || only_verifies) ids.push_back(row.session_id);
+    if (row.state != SessionState::withdrawn || options.verifies()) ids.push_back(row.session_id);
   if (ids.empty()) throw Error(fmt::format("{} holds no session yet", options.db));
   return ids;
 }
@@ -351,14 +349,14 @@ void add_replay(Command& app) {
     check(*options);
     refuse_special_file(options->db);
     const LogReader reader(options->db);
-    if (options->view)
+    if (options->verifies())
+      verify_all(reader, *options);
+    else if (options->view)
       show(reader, *options);
     else if (options->judges())
       judge(reader, *options);
-    else if (options->rerun || options->supposes())
-      ask_what_if(reader, *options);
     else
-      verify_all(reader, *options);
+      ask_what_if(reader, *options);
   });
 }
 

@@ -72,12 +72,8 @@ std::map<std::string, std::vector<std::string>> by_folder(const std::set<std::st
 }
 
 void report_copies(const Found& found, const WithdrawOptions& options) {
-  std::set<std::string> copies;
-  for (const std::string& folder : found.folders)
-    for (const std::string& copy :
-         copies_of_session(folder, options.db, found.facts.row.header.participant,
-                           found.facts.row.header.started_utc))
-      copies.insert(copy);
+  const std::set<std::string> copies =
+      copies_of_session(found.folders, options.db, found.facts.row.header);
   print("copies that remain, in {}:\n", fmt::format("{}", fmt::join(found.folders, ", ")));
   for (const auto& [folder, names] : by_folder(copies))
     if (names.size() > 3)

@@ -10,6 +10,7 @@
 #include "base/Program.h"
 #include "base/files/Csv.h"
 #include "base/files/TextFile.h"
+#include "record/reader/LogReader.h"
 
 namespace heft {
 
@@ -98,8 +99,7 @@ RowFile ExportFolder::rows(const std::string& name, RowFile::Kind kind) {
 }
 
 std::string ExportFolder::warning() const {
-  if (is_verified_) return "";
-  return " NOT VERIFIED: whether the log was changed was not checked (--unverified).";
+  return is_verified_ ? "" : fmt::format(" {}", unverified_warning);
 }
 
 void ExportFolder::write_text(const std::string& name, const std::string& text) {

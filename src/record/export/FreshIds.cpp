@@ -2,8 +2,9 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 
-#include <array>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "record/export/ExportSource.h"
 

@@ -101,6 +101,17 @@ class LogReader::Impl {
     refuse_damaged("the seals", error);
   }
 
+  /// Of the last seal that satisfies an SQL condition.
+  template <typename... Values>
+  std::string head(std::string_view condition, const Values&... values) const {
+    const auto heads =
+        rows([](Cells& cells) { return cells.text(); }, "seal",
+             fmt::format("SELECT seal_id, head FROM seal WHERE {} ORDER BY seal_id DESC LIMIT 1",
+                         condition),
+             values...);
+    return heads.empty() ? "" : heads.front();
+  }
+
   std::optional<BrokenDigest> first_broken_seal() const try {
     return has_tables_ ? heft::first_broken_seal(*database_) : std::nullopt;
   } catch (const SQLite::Exception& error) {
@@ -301,16 +312,11 @@ std::vector<Seal> LogReader::seals() const {
 }
 
 std::string LogReader::head() const {
-  const auto all = seals();
-  return all.empty() ? "" : all.back().head;
+  return impl_->head("TRUE");
 }
 
 std::string LogReader::head_of(std::int64_t session_id) const {
-  const auto heads = impl_->rows([](Cells& cells) { return cells.text(); }, "seal",
-                                 "SELECT seal_id, head FROM seal WHERE session_id = ? ORDER BY "
-                                 "seal_id DESC LIMIT 1",
-                                 session_id);
-  return heads.empty() ? "" : heads.front();
+  return impl_->head("session_id = ?", session_id);
 }
 
 std::optional<BrokenDigest> LogReader::first_broken_seal() const {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiment/Event.h"
@@ -78,6 +79,10 @@ struct LogIntegrity {
   bool is_verified = true;
   std::string words;  ///< "verified, head 1a2b3c4d5e6f"
 };
+
+/// For notes and descriptions where they were not.
+inline constexpr std::string_view unverified_warning =
+    "NOT VERIFIED: whether the log was changed was not checked (--unverified).";
 
 /// A snapshot of the log at the time of opening. An empty file, as a crash during creation leaves
 /// it, is a log without sessions. All methods throw Error naming table, row and column of an

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
-#include <vector>
 
 #include "record/schema/SessionHeader.h"
 #include "record/stream/EventSink.h"
@@ -94,11 +94,11 @@ class SessionArchive {
 std::string withdraw_session(const std::string& db, std::int64_t session_id,
                              const std::string& when_utc);
 
-/// Files in a folder and its folders that still hold a session: other logs (backups, earlier
-/// versions) by participant and start time, and texts (exports, reports) by the participant's id.
-/// @param db the log itself, which is not listed
-std::vector<std::string> copies_of_session(const std::string& folder, const std::string& db,
-                                           const std::string& participant,
-                                           const std::string& started_utc);
+/// Files in folders, and the folders in them, that still hold a session: other logs (backups,
+/// earlier versions) by participant and start time, and texts (exports, reports) by the
+/// participant's id.
+/// @param db the log itself, which is not listed  @param header of the session
+std::set<std::string> copies_of_session(const std::set<std::string>& folders, const std::string& db,
+                                        const SessionHeader& header);
 
 }  // namespace heft

@@ -24,36 +24,27 @@ namespace fs = std::filesystem;
 
 namespace {
 // What is kept of the session's header.
-SessionHeader tombstone_of(SQLite::Database& database, std::int64_t session_id,
-                           const std::string& when_utc) {
-  SQLite::Statement query(
-      database,
-      "SELECT protocol_name, purpose, heft_version, log_version FROM session WHERE session_id = ?");
-  query.bind(1, session_id);
-  query.executeStep();
+SessionHeader tombstone_of(const SessionHeader& header, const std::string& when_utc) {
   SessionHeader kept;
-  kept.protocol_name = query.getColumn(0).getString();
-  kept.purpose = named<Purpose>(query.getColumn(1).getString()).value_or(Purpose::main);
-  kept.heft_version = query.getColumn(2).getString();
-  kept.log_version = query.getColumn(3).getInt();
+  kept.protocol_name = header.protocol_name;
+  kept.purpose = header.purpose;
+  kept.heft_version = header.heft_version;
+  kept.log_version = header.log_version;
   kept.protocol_sha256 = sha256("");
   kept.run_options = nlohmann::json{{"withdrawn_utc", when_utc}}.dump();
   return kept;
 }
 
 void remove_rows(SQLite::Database& database, std::int64_t session_id) {
-  const auto remove = [&](const char* sql) {
-    SQLite::Statement statement(database, sql);
+  const auto remove = [&](const char* table, const char* condition) {
+    SQLite::Statement statement(database, fmt::format("DELETE FROM {} WHERE {}", table, condition));
     run(statement, session_id);
   };
   for (const char* table : {"cube", "answer"})
-    remove(fmt::format("DELETE FROM {} WHERE trial_id IN (SELECT trial_id FROM trial WHERE "
-                       "session_id = ?)",
-                       table)
-               .c_str());
+    remove(table, "trial_id IN (SELECT trial_id FROM trial WHERE session_id = ?)");
   for (const char* table : {"frame", "event", "reversal", "estimate", "participant_parameter",
                             "participant_info", "trial", "setup"})
-    remove(fmt::format("DELETE FROM {} WHERE session_id = ?", table).c_str());
+    remove(table, "session_id = ?");
 }
 
 void write_tombstone(SQLite::Database& database, std::int64_t session_id,
@@ -72,13 +63,12 @@ void write_tombstone(SQLite::Database& database, std::int64_t session_id,
   row.run_with_digest();
 }
 
-std::string withdraw(LogFile& file, std::int64_t session_id, const std::string& when_utc) {
+std::string withdraw(LogFile& file, std::int64_t session_id, const SessionHeader& kept) {
   SQLite::Database& database = file.database();
   // Removed pages are overwritten, not only marked as free.
   database.exec("PRAGMA secure_delete = ON");
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   seal_sessions(database);
-  const SessionHeader kept = tombstone_of(database, session_id, when_utc);
   remove_rows(database, session_id);
   write_tombstone(database, session_id, kept);
   std::string head = seal(database, session_id);
@@ -130,30 +120,32 @@ bool is_copy(const fs::path& file, const std::string& participant, const std::st
 std::string withdraw_session(const std::string& db, std::int64_t session_id,
                              const std::string& when_utc) {
   LogFile file(db);
-  const SessionState state = LogReader(db).session(session_id).state;
-  if (state == SessionState::withdrawn)
+  const SessionRow session = LogReader(db).session(session_id);
+  if (session.state == SessionState::withdrawn)
     throw Error(fmt::format("the data of session {} in {} were already withdrawn", session_id, db),
                 ExitCode::usage);
   try {
-    return withdraw(file, session_id, when_utc);
+    return withdraw(file, session_id, tombstone_of(session.header, when_utc));
   } catch (const SQLite::Exception& error) {
     throw sqlite_error(fmt::format("cannot withdraw session {} from {}", session_id, db), error,
                        &file.database());
   }
 }
 
-std::vector<std::string> copies_of_session(const std::string& folder, const std::string& db,
-                                           const std::string& participant,
-                                           const std::string& started_utc) {
-  std::vector<std::string> copies;
-  std::error_code unreadable;
+std::set<std::string> copies_of_session(const std::set<std::string>& folders, const std::string& db,
+                                        const SessionHeader& header) {
+  std::set<std::string> copies;
+  std::set<fs::path> seen{fs::weakly_canonical(db)};  // a folder may be in another
   const auto options = fs::directory_options::skip_permission_denied;
-  for (auto entry = fs::recursive_directory_iterator(folder, options, unreadable);
-       !unreadable && entry != fs::recursive_directory_iterator(); entry.increment(unreadable))
-    if (entry->is_regular_file(unreadable) && !fs::equivalent(entry->path(), db, unreadable) &&
-        is_copy(entry->path(), participant, started_utc))
-      copies.push_back(entry->path().string());
-  std::ranges::sort(copies);
+  for (const std::string& folder : folders) {
+    std::error_code unreadable;
+    for (auto entry = fs::recursive_directory_iterator(folder, options, unreadable);
+         !unreadable && entry != fs::recursive_directory_iterator(); entry.increment(unreadable))
+      if (entry->is_regular_file(unreadable) &&
+          seen.insert(fs::weakly_canonical(entry->path())).second &&
+          is_copy(entry->path(), header.participant, header.started_utc))
+        copies.insert(entry->path().string());
+  }
   return copies;
 }
 
