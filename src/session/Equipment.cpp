@@ -5,6 +5,7 @@
 #include "base/Error.h"
 #include "protocol/readers/Files.h"
 #include "responders/hand/Hand.h"
+#include "session/DisplayCheck.h"
 
 namespace heft {
 
@@ -101,6 +102,10 @@ Equipment::Equipment(ResolvedConfig config)
                                                 config_->pictures, config_->config.tracker.text,
                                                 config_->config.hand == Side::left, setup.dragged});
   view_ = config_->view->make(setup);
+}
+
+std::vector<CheckResult> Equipment::check() {
+  return check_equipment({*config_->protocol, *pictures_, *responder_, *view_, clock});
 }
 
 SessionParts Equipment::parts(Engine& engine, EventSink& sink) {

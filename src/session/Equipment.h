@@ -18,6 +18,9 @@ class Equipment {
 
   SessionParts parts(Engine& engine, EventSink& sink);
 
+  /// As before a session (DisplayCheck.h).
+  std::vector<CheckResult> check();
+
   /// The configuration with the opened devices' facts.
   /// @throws Error (invalid_file) if the display is not the measured one
   SessionConfig logged_config() const {

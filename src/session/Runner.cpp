@@ -6,6 +6,7 @@
 
 #include "base/Error.h"
 #include "session/AttemptRun.h"
+#include "session/DisplayCheck.h"
 
 namespace heft {
 
@@ -50,9 +51,14 @@ void Runner::check_apparatus() {
 // @return names of the failed checks, as printed and logged
 std::string Runner::failed_checks() {
   std::string failed;
-  if (parts_.has_screen && parts_.pictures.has_checks())
-    screen_.present({}, ScreenState{.screen = Screen::setting_up});
-  for (const CheckResult& result : parts_.pictures.check(parts_.protocol.display_rate_hz)) {
+  const bool measures_display = parts_.view.display().has_value();
+  const ScreenState setting_up{.screen = Screen::setting_up};
+  if (measures_display || (parts_.has_screen && parts_.pictures.has_checks()))
+    screen_.present({}, setting_up);
+  const std::vector<CheckResult> results = check_equipment(
+      {parts_.protocol, parts_.pictures, parts_.responder, parts_.view, parts_.clock});
+  if (measures_display) screen_.present({}, setting_up);
+  for (const CheckResult& result : results) {
     journal_.emit_now(result);
     const bool has_failed = result.verdict == CheckVerdict::failed;
     if (options_.console)

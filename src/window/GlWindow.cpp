@@ -244,6 +244,10 @@ void GlWindow::end_frame() {
   ImGui::Render();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   glViewport(0, 0, static_cast<GLsizei>(size.x), static_cast<GLsizei>(size.y));
+  const auto fraction = [](int of_255) { return static_cast<float>(of_255) / 255; };
+  glClearColor(fraction(background_rgb[0]), fraction(background_rgb[1]),
+               fraction(background_rgb[2]), 1);
+  glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
   SDL_GL_SwapWindow(window_.get());
   glFinish();

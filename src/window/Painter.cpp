@@ -13,7 +13,7 @@ namespace heft {
 
 namespace {
 namespace colors {
-constexpr ImU32 background = IM_COL32(20, 23, 27, 255);
+
 constexpr ImU32 button = IM_COL32(49, 56, 65, 255);
 constexpr ImU32 button_pressed = IM_COL32(79, 90, 104, 255);
 constexpr ImU32 button_disabled = IM_COL32(29, 33, 38, 255);
@@ -24,7 +24,7 @@ constexpr ImU32 strong = IM_COL32(243, 245, 247, 255);
 constexpr ImU32 soft = IM_COL32(196, 203, 211, 255);
 constexpr ImU32 disabled = IM_COL32(96, 105, 115, 255);
 constexpr ImU32 flag = IM_COL32(250, 250, 250, 255);
-constexpr ImU32 notice = IM_COL32(20, 23, 27, 225);
+constexpr ImU32 notice = IM_COL32(background_rgb[0], background_rgb[1], background_rgb[2], 225);
 }  // namespace colors
 
 ImVec2 corner(const Rect& area) {
@@ -143,7 +143,6 @@ void paint_notice(ImDrawList& list, const std::string& notice, bool at_top, cons
 }  // namespace
 
 void paint_page(ImDrawList& list, const Page& page, const Paint& paint) {
-  list.AddRectFilled({0, 0}, {paint.measures.width, paint.measures.height}, colors::background);
   if (paint.scene) {
     paint_scene(list, *paint.scene);
     list.PushClipRect(corner(paint.scene->area), opposite_corner(paint.scene->area), true);

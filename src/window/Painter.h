@@ -3,6 +3,7 @@
 // the window and of the frame, and finds the cube under a finger.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <optional>
@@ -16,6 +17,10 @@
 struct ImDrawList;
 
 namespace heft {
+
+/// Behind everything, of 255. GlWindow clears the frame to it, which software rendering does five
+/// times as fast as it paints a rectangle.
+inline constexpr std::array background_rgb{20, 23, 27};
 
 /// The scene's frame on the screen.
 struct PaintedScene {
@@ -66,6 +71,7 @@ struct Paint {
   std::optional<Patch> patch = {};
 };
 
+/// On a frame of the background's color.
 void paint_page(ImDrawList& list, const Page& page, const Paint& paint);
 
 class SceneOnScreen {

@@ -53,7 +53,7 @@ std::optional<Picture> DraggedPictures::next() {
 std::shared_ptr<const Image> DraggedPictures::filmed(const Pose& effector, double t_s) {
   const auto still = [&](double) { return std::optional(effector); };
   auto image = std::make_shared<const Image>(camera_.picture(still, t_s, number_++));
-  if (recording_)
+  if (recording_ && attempt_.is_recorded())
     recording_->keep(*image, attempt_.start_s + t_s, {effector, settings_.camera_from_board});
   return image;
 }

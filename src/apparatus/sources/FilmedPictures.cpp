@@ -83,7 +83,7 @@ CameraPictures::CameraPictures(OpenCamera open, const PictureParts& parts)
 }
 
 void CameraPictures::begin_attempt(const AttemptStart& attempt) {
-  attempt_start_s_ = attempt.start_s;
+  attempt_ = attempt;
   attempt_capture_s_ = last_capture_s_;
   listen_again();  // pictures between attempts do not count
 }
@@ -106,7 +106,7 @@ std::optional<Picture> CameraPictures::next() {
   const int n_dropped = last_number_ ? static_cast<int>(taken->number - *last_number_ - 1) : 0;
   last_number_ = taken->number;
   heard_s_ = clock_.now_s();
-  if (recording_) recording_->keep(taken->image, taken->capture_s);
+  if (recording_ && attempt_.is_recorded()) recording_->keep(taken->image, taken->capture_s);
   Picture picture =
       tracker_.track(std::make_shared<const Image>(std::move(taken->image)), taken->capture_s);
   if (t_s < 0) return std::nullopt;  // taken before the attempt
@@ -123,7 +123,7 @@ std::vector<CheckResult> CameraPictures::check(double wanted_rate_hz) {
 // Time since the attempt's start.
 double CameraPictures::time_of(const CameraPicture& taken) {
   last_capture_s_ = taken.capture_s;
-  if (camera_->is_live()) return clock_.session_s(taken.capture_s) - attempt_start_s_;
+  if (camera_->is_live()) return clock_.session_s(taken.capture_s) - attempt_.start_s;
   if (!attempt_capture_s_) attempt_capture_s_ = taken.capture_s;
   return taken.capture_s - *attempt_capture_s_;
 }
@@ -134,7 +134,7 @@ std::optional<Picture> CameraPictures::picture_of_silence() {
   Picture picture;
   picture.trouble = "camera_lost";
   picture.sample.tracked = false;
-  picture.sample.t_capture_s = now_s - attempt_start_s_;
+  picture.sample.t_capture_s = now_s - attempt_.start_s;
   return picture;
 }
 
@@ -170,7 +170,7 @@ std::optional<Picture> SyntheticPictures::next() {
     return sample.in_view ? std::optional(sample.pose) : std::nullopt;
   };
   auto image = std::make_shared<const Image>(camera_.picture(path, t_s, number));
-  if (recording_)
+  if (recording_ && attempt_.is_recorded())
     recording_->keep(*image, attempt_.start_s + t_s, {path(t_s), settings_.camera_from_board});
   Picture picture = tracker_.track(std::move(image), t_s);
   picture.n_dropped = count_.skipped();

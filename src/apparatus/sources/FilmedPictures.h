@@ -54,6 +54,7 @@ class CameraPictures final : public PictureSource {
   std::optional<double> rate_hz() const override;
   std::vector<CheckResult> check(double wanted_rate_hz) override;
   bool has_checks() const override { return true; }
+  bool is_endless() const override { return camera_->is_live(); }
   bool ended() const override { return camera_->ended(); }
 
  private:
@@ -66,7 +67,7 @@ class CameraPictures final : public PictureSource {
   PictureTracker tracker_;
   std::optional<PictureRecording> recording_;
   const SessionClock& clock_;
-  double attempt_start_s_ = 0;
+  AttemptStart attempt_;
   // A file's times continue between attempts; an attempt starts with the next picture.
   std::optional<double> last_capture_s_, attempt_capture_s_;
   std::optional<std::int64_t> last_number_;

@@ -23,6 +23,7 @@ class PacedPictures final : public PictureSource {
     return source_->check(wanted_rate_hz);
   }
   bool has_checks() const override { return source_->has_checks(); }
+  bool is_endless() const override { return source_->is_endless(); }
   bool ended() const override { return source_->ended(); }
   std::optional<double> rate_hz() const override { return source_->rate_hz(); }
 

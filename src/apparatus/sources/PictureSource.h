@@ -31,10 +31,15 @@ struct Picture {
   int n_dropped = 0;  ///< by the camera, since the previous picture
 };
 
+/// The number of a trial before the session's trials, whose pictures are not recorded.
+inline constexpr int before_trials = 0;
+
 /// An attempt and its start.
 struct AttemptStart {
   double start_s = 0;
   int trial_number = 1, attempt = 1;
+
+  bool is_recorded() const { return trial_number != before_trials; }
 };
 
 class PictureSource {
@@ -65,6 +70,9 @@ class PictureSource {
 
   /// Whether check() takes time to examine something.
   virtual bool has_checks() const { return false; }
+
+  /// Whether pictures can be taken before the session without missing in it; false for a file.
+  virtual bool is_endless() const { return true; }
 
   /// Whether the file has ended.
   virtual bool ended() const { return false; }

@@ -27,6 +27,7 @@
 #include "record/reader/LogReader.h"
 #include "replay/Replay.h"
 #include "responders/Responder.h"
+#include "session/Equipment.h"
 #include "session/Session.h"
 #include "tracking/calibration/ShutterCalibration.h"
 #include "tracking/camera/Camera.h"
@@ -165,11 +166,18 @@ void check_displays(Report& report, const ScreenTexts& texts) try {
   report.line(CheckVerdict::failed, "display", error.what());
 }
 
+// check_displays reports why there is none.
+std::vector<DisplayFacts> displays_if_any() try {
+  return window_module().displays();
+} catch (const Error&) {
+  return {};
+}
+
 // From a touch to disk and display. One of fifty may be late.
 void check_touch_delay(Report& report, const std::string& folder, const ScreenTexts& texts) try {
   constexpr int n_taps = 50;
   constexpr double usual_refresh_hz = 60, beside_a_frame_s = 0.020;
-  const auto found = window_module().displays();
+  const auto found = displays_if_any();
   if (found.empty())
     return report.line(CheckVerdict::ok, "touch delay", "not measured: there is no display");
   const WrittenForTrial file(folder);
@@ -214,20 +222,23 @@ void check_shutter(Report& report, const Intrinsics& camera) {
           1e3 * camera.readout_s, half_millimeter_m_s(camera.readout_s)));
 }
 
-// Examines pictures: the camera, its calibration, the light, the board.
-void check_tracker(Report& report, SessionOptions given, double rate_hz) {
-  const auto& [name, what, text] = given.tracker.value();
-  if (tracker_named(name).what != TrackerWhat::source)
+// The check before a session: the camera, if one is given, and the display, if there is one.
+// Without a camera the window shows the rendered pictures of tracker mouse.
+void check_as_before_a_session(Report& report, SessionOptions given, double rate_hz) {
+  const bool has_camera = given.tracker.has_value();
+  const bool has_display = !displays_if_any().empty();
+  if (!has_camera && !has_display) return;
+  if (has_camera && tracker_named(given.tracker->name).what != TrackerWhat::source)
     throw Error("--tracker: expected camera:N, video:FILE or frames:FOLDER", ExitCode::usage);
-  given.responder = Plug{"simulated"};
-  const ResolvedConfig config = resolve(given, {}, 0);
-  print_camera_file(given, config->config);
-  const Apparatus& apparatus = config->apparatus;
-  const auto camera =
-      open_camera(name, config->config.tracker.what, request_for(apparatus.camera, rate_hz));
-  for (const CheckResult& result : check_camera(*camera, apparatus, rate_hz))
+  if (!has_camera) given.tracker = Plug{"mouse"};
+  if (!has_display) given.responder = Plug{"simulated"};  // a person needs a window
+  Protocol protocol = load_protocol(installed_file("protocols/paper.toml"));
+  protocol.display_rate_hz = rate_hz;
+  const ResolvedConfig config = resolve(given, protocol, 0);
+  if (has_camera) print_camera_file(given, config->config);
+  for (const CheckResult& result : Equipment(config).check())
     report.line(result.verdict, result.name, result.finding);
-  check_shutter(report, apparatus.camera);
+  if (has_camera) check_shutter(report, config->apparatus.camera);
 }
 
 void list_cameras(const std::vector<VideoDevice>& devices) {
@@ -281,7 +292,7 @@ void diagnose(const std::string& db, const SessionOptions& given, double rate_hz
   check_touch_delay(report, folder, texts);
   for (const CheckResult& result : outlet_verdicts())
     report.line(result.verdict, result.name, result.finding);
-  if (given.tracker) check_tracker(report, given, rate_hz);
+  check_as_before_a_session(report, given, rate_hz);
   print_next_steps();
   if (report.failed()) throw Error("this machine is not ready; see the lines marked FAILED");
 }
