@@ -79,7 +79,7 @@ void draw(GlWindow& window, const Card& card, const std::string& how, const Type
   const auto w = static_cast<float>(card.w_px);
   const auto h = static_cast<float>(card.w_px * card_h_mm / card_w_mm);
   ImDrawList& list = window.begin_frame();
-  paint_page(list, instructions(how, typeface, m), {typeface, m, window.written(), {}, {}, {}});
+  paint_page(list, instructions(how, typeface, m), {typeface, m, window.written(), {}, {}, {}, {}});
   list.AddRectFilled({(m.width - w) / 2, (m.height - h) / 2},
                      {(m.width + w) / 2, (m.height + h) / 2}, IM_COL32(94, 177, 255, 255));
   window.end_frame();

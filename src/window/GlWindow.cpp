@@ -18,8 +18,6 @@
 namespace heft {
 
 namespace {
-constexpr int windowed_width_px = 1024, windowed_height_px = 600;
-
 Error no_display(const char* what) {
   return Error(fmt::format("cannot open the participant's window: {}: {}; start Heft on a desktop "
                            "with a display (DISPLAY or WAYLAND_DISPLAY set), or choose another "
@@ -101,6 +99,16 @@ void require_display(int number) {
               ExitCode::device_missing);
 }
 
+// A window that leaves the desktop's bars and its own frame visible, in the middle.
+SDL_Rect windowed_place(int display) {
+  constexpr int wanted_w = 1024, wanted_h = 600, frame_w = 8, frame_h = 40;
+  SDL_Rect usable{};
+  if (SDL_GetDisplayUsableBounds(display, &usable) != 0) SDL_GetDisplayBounds(display, &usable);
+  const int w = std::min(wanted_w, usable.w - 2 * frame_w);
+  const int h = std::min(wanted_h, usable.h - 2 * frame_h);
+  return {usable.x + (usable.w - w) / 2, usable.y + (usable.h - h) / 2, w, h};
+}
+
 // Of the display's size from the start: without a window manager, as on a bare touch display, a
 // smaller window would not be enlarged to full screen.
 SDL_Window* window_on(const WindowChoice& choice, const char* title) {
@@ -109,8 +117,7 @@ SDL_Window* window_on(const WindowChoice& choice, const char* title) {
   SDL_GetDisplayBounds(choice.display, &place);
   Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
   if (choice.windowed || choice.hidden) {
-    place = {place.x + 40, place.y + 40, std::min(place.w, windowed_width_px),
-             std::min(place.h, windowed_height_px)};
+    place = windowed_place(choice.display);
     if (choice.hidden) flags |= SDL_WINDOW_HIDDEN;
   } else {
     flags |= SDL_WINDOW_FULLSCREEN_DESKTOP;
@@ -202,7 +209,10 @@ std::vector<DisplayFacts> displays() {
 void GlWindow::toggle_full_screen() {
   const bool full = is_full_screen();
   SDL_SetWindowFullscreen(window_.get(), full ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
-  if (full) SDL_SetWindowSize(window_.get(), windowed_width_px, windowed_height_px);
+  if (!full) return;
+  const SDL_Rect place = windowed_place(std::max(0, SDL_GetWindowDisplayIndex(window_.get())));
+  SDL_SetWindowSize(window_.get(), place.w, place.h);
+  SDL_SetWindowPosition(window_.get(), place.x, place.y);
 }
 
 void GlWindow::upload(const Image& frame) {

@@ -65,15 +65,15 @@ void write_centered(ImDrawList& list, const Paint& paint, const FittedText& text
   }
 }
 
-ImU32 fill_of(const Control& control, bool pressed) {
-  if (!control.enabled) return colors::button_disabled;
+ImU32 fill_of(const Control& control, bool pressed, bool live) {
+  if (!live) return colors::button_disabled;
   const bool accented = control.look == Look::primary;
   if (pressed) return accented ? colors::accent_pressed : colors::button_pressed;
   return accented ? colors::accent : colors::button;
 }
 
-ImU32 ink_of(const Control& control) {
-  if (!control.enabled) return colors::disabled;
+ImU32 ink_of(const Control& control, bool live) {
+  if (!live) return colors::disabled;
   return control.look == Look::primary ? colors::on_accent : colors::strong;
 }
 
@@ -84,26 +84,29 @@ void paint_words(ImDrawList& list, const Control& control, const Paint& paint, I
     write_centered(list, paint, words.note, words.note_area, colors::accent);
 }
 
-// A line from end to end, and a bar at the value.
+// A line from end to end, and a bar at the value: hollow and in the middle until it is set, so that
+// it favors no answer.
 void paint_slider(ImDrawList& list, const Rect& area, const SliderValue& slid, float target) {
   const float thick = 0.06f * target, inset = 0.12f * target;
   const float left = area.x + inset, right = area.right() - inset, y = area.y + area.height / 2;
   list.AddRectFilled({left, y - thick / 2}, {right, y + thick / 2}, colors::soft, thick / 2);
-  if (!slid.fraction) return;
-  const float x = std::clamp(area.x + *slid.fraction * area.width, left, right);
-  list.AddRectFilled({x - thick, area.y + inset}, {x + thick, area.bottom() - inset},
-                     colors::accent, thick);
+  const float x = std::clamp(area.x + slid.fraction.value_or(0.5f) * area.width, left, right);
+  const ImVec2 from{x - thick, area.y + inset}, to{x + thick, area.bottom() - inset};
+  if (slid.fraction) return list.AddRectFilled(from, to, colors::accent, thick);
+  list.AddRectFilled(from, to, colors::button, thick);
+  list.AddRect(from, to, colors::soft, thick, 0, thick / 3);
 }
 
 void paint_control(ImDrawList& list, const Control& control, const Paint& paint) {
   const bool pressed = control.enabled && paint.is_pressed(control.name);
+  const bool live = control.enabled && (pressed || paint.takes_touches(control.name));
   const float rounding = 0.14f * paint.measures.target;
   const ImVec2 from = corner(control.area), to = opposite_corner(control.area);
-  list.AddRectFilled(from, to, fill_of(control, pressed), rounding);
+  list.AddRectFilled(from, to, fill_of(control, pressed, live), rounding);
   if (control.chosen)
     list.AddRect(from, to, colors::accent, rounding, 0, 0.045f * paint.measures.target);
   if (control.slide) return paint_slider(list, control.area, *control.slide, paint.measures.target);
-  paint_words(list, control, paint, ink_of(control));
+  paint_words(list, control, paint, ink_of(control, live));
 }
 
 void paint_scene(ImDrawList& list, const PaintedScene& scene) {
@@ -112,8 +115,24 @@ void paint_scene(ImDrawList& list, const PaintedScene& scene) {
                 corner(scene.part), opposite_corner(scene.part), IM_COL32(255, 255, 255, alpha));
 }
 
-// A flag with a label, its tip at the cube; only the tip without a label. Raised if another flag is
-// in the way.
+// The place of a flag above its tip, raised if another flag is in the way; below the tip where the
+// scene ends above.
+Rect place_of_flag(const PlacedMark& placed, float width, float height, float tip,
+                   const Rect& scene, const std::vector<Rect>& flags) {
+  Rect flag{std::clamp(placed.x - width / 2, scene.x, std::max(scene.x, scene.right() - width)),
+            placed.y - tip - height + 1, width, height};
+  const auto is_free = [&] {
+    return std::ranges::none_of(flags, [&](const Rect& other) { return flag.overlaps(other); });
+  };
+  const float step = height / 4;
+  while (!is_free() && flag.y >= scene.y) flag.y -= step;
+  if (flag.y >= scene.y) return flag;
+  flag.y = scene.y;
+  while (!is_free() && flag.bottom() + step <= scene.bottom()) flag.y += step;
+  return flag;
+}
+
+// A flag with a label, its tip at the cube; only the tip without a label.
 void paint_mark(ImDrawList& list, const PlacedMark& placed, const Paint& paint,
                 std::vector<Rect>& flags) {
   const ImU32 fill = placed.mark.selected ? colors::accent : colors::flag;
@@ -123,9 +142,7 @@ void paint_mark(ImDrawList& list, const PlacedMark& placed, const Paint& paint,
   if (placed.mark.text.empty()) return;
   const float width = paint.typeface.width_px(placed.mark.text, size) + 1.2f * size;
   const float height = 1.7f * size;
-  Rect flag{placed.x - width / 2, placed.y - tip - height + 1, width, height};
-  while (std::ranges::any_of(flags, [&](const Rect& other) { return flag.overlaps(other); }))
-    flag.y -= height / 4;
+  const Rect flag = place_of_flag(placed, width, height, tip, paint.scene->area, flags);
   flags.push_back(flag);
   list.AddLine({placed.x, flag.bottom() - 1}, {placed.x, placed.y}, fill, 0.15f * size);
   list.AddRectFilled(corner(flag), opposite_corner(flag), fill, height / 4);

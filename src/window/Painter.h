@@ -68,6 +68,8 @@ struct Paint {
   std::optional<PaintedScene> scene;
   std::vector<PlacedMark> marks;
   std::function<bool(const std::string& control)> is_pressed;
+  /// Whether a touch of the control counts now; those that do not are drawn as if disabled.
+  std::function<bool(const std::string& control)> takes_touches;
   std::optional<Patch> patch = {};
 };
 

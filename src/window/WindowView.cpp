@@ -45,6 +45,7 @@ WindowView::WindowView(const ViewSetup& setup)
 void WindowView::show(const ViewFrame& shown, const ScreenState& screen) {
   touched_.show(screen, !shown.frame.cubes.empty());
   in_trial_ = screen.screen == Screen::trial;
+  if (drag_) drag_->set_clone(shown.frame.clone);
   if (drag_ && !in_trial_) drag_->let_go();
   lay_out();
   clone_offset_px_.reset();
@@ -77,9 +78,12 @@ void WindowView::draw() {
   if (scene_.area())
     painted = PaintedScene{window_.texture(), *scene_.area(), scene_.part(), page.scene_opacity};
   ImDrawList& list = window_.begin_frame();
-  paint_page(list, page,
-             {typeface_, measures_, window_.written(), painted, scene_.placed(page.marks),
-              [&](const std::string& name) { return touched_.holds(name); }, patch_});
+  paint_page(
+      list, page,
+      {typeface_, measures_, window_.written(), painted, scene_.placed(page.marks),
+       [&](const std::string& name) { return touched_.holds(name); },
+       [&, now_s = monotonic_s()](const std::string& name) { return touched_.takes(name, now_s); },
+       patch_});
   window_.end_frame();
   touched_.presented(monotonic_s());
   stale_ = false;
@@ -93,7 +97,9 @@ std::optional<Eigen::Vector3d> WindowView::dragged_to(float x, float y) const {
 bool WindowView::is_on_effector(float x, float y) const {
   if (!in_trial_ || !scene_.area() || !scene_.area()->contains(x, y)) return false;
   const auto at_m = dragged_to(x, y);
-  return at_m && drag_->is_at(*at_m);
+  if (!at_m) return false;
+  // Beside a held one, a second finger turns it, unless it taps a cube.
+  return drag_->is_held() ? !target_at(x, y) : drag_->is_at(*at_m);
 }
 
 void WindowView::down(Taps::Pointer pointer, float x, float y, double t_s) {
@@ -197,31 +203,52 @@ EffectorDrag::EffectorDrag(const ViewSetup& setup)
       reach_m_(setup.area_m / 2) {}
 
 bool EffectorDrag::is_at(const Eigen::Vector3d& at_m) const {
-  const Pose& pose = effector_->pose;
-  const Eigen::Vector3d in_box_m = pose.orientation.conjugate() * (at_m - pose.position_m);
-  return ((in_box_m.head<2>().cwiseAbs() - half_m_).array() <= around_m).all();
+  const auto is_over = [&](const Pose& pose) {
+    const Eigen::Vector3d in_box_m = pose.orientation.conjugate() * (at_m - pose.position_m);
+    return ((in_box_m.head<2>().cwiseAbs() - half_m_).array() <= around_m).all();
+  };
+  return is_over(effector_->pose) || (clone_ && is_over(*clone_));
 }
 
 void EffectorDrag::take(Taps::Pointer pointer, const Eigen::Vector3d& at_m) {
-  if (holder_ || !is_at(at_m)) return;
-  holder_ = pointer;
-  from_pointer_m_ = effector_->pose.position_m - at_m;
-  was_taken_ = true;
+  if (holder_) {
+    if (turner_) return;
+    turner_ = pointer;
+    turned_at_m_ = at_m.head<2>();
+  } else if (is_at(at_m)) {
+    holder_ = pointer;
+    held_at_m_ = at_m.head<2>();
+    from_pointer_m_ = effector_->pose.position_m - at_m;
+    was_taken_ = true;
+  }
 }
 
 void EffectorDrag::move(Taps::Pointer pointer, const Eigen::Vector3d& at_m) {
   if (!is_held_by(pointer)) return;
+  const auto angle_rad = [&] {
+    const Eigen::Vector2d along_m = turned_at_m_ - held_at_m_;
+    return std::atan2(along_m.y(), along_m.x());
+  };
+  const double before_rad = angle_rad();
+  (holder_ == pointer ? held_at_m_ : turned_at_m_) = at_m.head<2>();
+  if (turner_) turn_by(angle_rad() - before_rad);
+  if (holder_ != pointer) return;
   const Eigen::Vector2d to_m = (at_m + from_pointer_m_).head<2>();
   effector_->pose.position_m.head<2>() = to_m.cwiseMax(-reach_m_).cwiseMin(reach_m_);
 }
 
 void EffectorDrag::let_go(Taps::Pointer pointer) {
-  if (is_held_by(pointer)) holder_.reset();
+  if (holder_ == pointer) let_go();
+  if (turner_ == pointer) turner_.reset();
 }
 
 void EffectorDrag::turn(double notches) {
+  turn_by(notches * turn_rad);
+}
+
+void EffectorDrag::turn_by(double angle_rad) {
   Eigen::Quaterniond& orientation = effector_->pose.orientation;
-  const Eigen::AngleAxisd turned(notches * turn_rad, Eigen::Vector3d::UnitZ());
+  const Eigen::AngleAxisd turned(angle_rad, Eigen::Vector3d::UnitZ());
   orientation = (turned * orientation).normalized();
 }
 

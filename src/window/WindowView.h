@@ -1,8 +1,8 @@
 // The participant's window: SDL2 and OpenGL, full screen, for touch at arm's length. Fingers and
 // mouse are equivalent: a tap is going down and up on the same control, or on the same cube in the
 // scene, which acts as its button. For when it counts see TouchScreen.h, for targets' sizes Page.h.
-// F11 toggles full screen. A dragged effector follows the finger or mouse that went down on it; the
-// wheel turns it.
+// F11 toggles full screen. A dragged effector follows the finger or mouse that went down on it or
+// on its clone; the wheel or a second finger turns it.
 //
 // Keyboard, if enabled (other people's typing must not answer): 1...9 a cube or a form's choice; L,
 // I, H lightest, intermediate, heaviest (in every language); Enter continues, agrees, validates; D
@@ -23,8 +23,9 @@
 
 namespace heft {
 
-/// The dragged effector: taken by a finger or the mouse, moved over the table at constant height,
-/// and turned. The pointer's position is where its ray meets that height.
+/// The dragged effector: taken by a finger or the mouse, at itself or at its clone, moved over the
+/// table at constant height, and turned by the wheel or a second finger. The pointer's position is
+/// where its ray meets that height.
 class EffectorDrag {
  public:
   /// @param setup with the effector
@@ -33,16 +34,22 @@ class EffectorDrag {
   /// Height at which pointers are projected.
   double height_m() const { return effector_->pose.position_m.z(); }
 
-  /// Whether a point is over the effector. @param at_m board frame, at height_m()
+  /// Sets the displayed clone, which may be all of the effector that the participant sees.
+  void set_clone(const std::optional<Pose>& clone) { clone_ = clone; }
+
+  /// Whether a point is over the effector or its clone. @param at_m board frame, at height_m()
   bool is_at(const Eigen::Vector3d& at_m) const;
 
-  /// Takes the effector if the pointer is over it and no other pointer has it.
+  /// Takes the effector if the pointer is over it and no other pointer has it. While one has it,
+  /// a second finger anywhere turns it.
   void take(Taps::Pointer pointer, const Eigen::Vector3d& at_m);
-  /// Moves the effector with the pointer that has it, within the working area.
+  /// Moves the effector with the pointer that has it, within the working area; a second finger's
+  /// movement about the first turns it.
   void move(Taps::Pointer pointer, const Eigen::Vector3d& at_m);
   void let_go(Taps::Pointer pointer);
-  void let_go() { holder_.reset(); }
-  bool is_held_by(Taps::Pointer pointer) const { return holder_ == pointer; }
+  void let_go() { holder_.reset(), turner_.reset(); }
+  bool is_held() const { return holder_.has_value(); }
+  bool is_held_by(Taps::Pointer pointer) const { return holder_ == pointer || turner_ == pointer; }
 
   /// Turns it about the vertical axis, counterclockwise as seen from above.
   void turn(double notches);
@@ -51,10 +58,14 @@ class EffectorDrag {
   bool was_taken() const { return was_taken_; }
 
  private:
+  void turn_by(double angle_rad);
+
   std::shared_ptr<DraggedEffector> effector_;
+  std::optional<Pose> clone_;
   Eigen::Vector2d half_m_, reach_m_;
-  std::optional<Taps::Pointer> holder_;
+  std::optional<Taps::Pointer> holder_, turner_;
   Eigen::Vector3d from_pointer_m_{0, 0, 0};
+  Eigen::Vector2d held_at_m_{0, 0}, turned_at_m_{0, 0};  // the two pointers
   bool was_taken_ = false;
 };
 
@@ -73,7 +84,7 @@ class WindowView final : public ArView {
   const Measures& measures() const { return measures_; }
   /// The displayed controls, in pixels of the window, for tests and scripts that tap.
   const std::vector<Control>& controls() const { return touched_.page().controls; }
-  /// Whether a finger that goes down there takes the effector.
+  /// Whether a finger that goes down there takes the effector, or turns it.
   bool is_on_effector(float x, float y) const;
   /// See TouchScreen::target_at.
   std::optional<std::string> target_at(float x, float y) const { return touched_.target_at(x, y); }

@@ -22,8 +22,9 @@ using testing::IsSupersetOf;
 using testing::UnorderedElementsAre;
 using testing::UnorderedElementsAreArray;
 
-const std::vector<Measures> windows{{800, 480},  {1024, 600},        {1280, 800},      {1920, 1080},
-                                    {800, 1280}, {1024, 600, 0.75f}, {1024, 600, 1.3f}};
+const std::vector<Measures> windows{
+    {800, 480},         {1024, 600},       {1280, 800}, {1920, 1080},      {800, 1280},
+    {1024, 600, 0.75f}, {1024, 600, 1.3f}, {1008, 520}, {1008, 520, 1.3f}, {3840, 2160, 1.3f}};
 
 bool overlap(const Rect& a, const Rect& b) {
   return a.overlaps(b);
@@ -421,6 +422,18 @@ TEST(Screens, AgreeIsApartFromMoreAndNeedsReadingTime) {
     EXPECT_THAT(names(fixture.screens.page(fixture.typeface, fixture.measures, 60), true),
                 testing::Contains("next"));
   }
+}
+
+TEST(Screens, ConsentShowsTheTimeLeftForReading) {
+  Fixture fixture;
+  fixture.screens.show(page_state(Screen::consent), false);
+  const auto note_after = [&](double up_s) {
+    const Page page = fixture.screens.page(fixture.typeface, fixture.measures, up_s);
+    return std::ranges::find(page.controls, "next", &Control::name)->note;
+  };
+  EXPECT_THAT(note_after(0), testing::MatchesRegex("Time to read: 0:0[0-9]"));
+  EXPECT_NE(note_after(0), note_after(2));
+  EXPECT_EQ(note_after(60), "");
 }
 
 TEST(Screens, ReturningFromDecliningNeedsNoReadingTime) {

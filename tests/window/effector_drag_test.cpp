@@ -42,12 +42,50 @@ TEST_F(Drag, OnePointerHoldsItUntilRelease) {
   drag.take(finger, middle);
   drag.take(Taps::mouse, middle);
   drag.move(Taps::mouse, {0.1, 0.1, 0.025});
-  EXPECT_EQ(effector->pose.position_m, middle);
+  EXPECT_EQ(effector->pose.position_m, middle) << "a second one turns it only";
   drag.let_go(Taps::mouse);
   EXPECT_TRUE(drag.is_held_by(finger));
   drag.let_go(finger);
   drag.move(finger, {0.1, 0.1, 0.025});
   EXPECT_EQ(effector->pose.position_m, middle);
+}
+
+TEST_F(Drag, TheCloneCanBeTakenWhichIsAllThatIsSeenOfIt) {
+  drag.set_clone(upright_pose({0, -0.03, 0.025}, M_PI / 2));
+  drag.take(Taps::mouse, {0, 0.005, 0.025});
+  ASSERT_TRUE(drag.is_held_by(Taps::mouse)) << "at the clone's tip, in front of its own";
+  drag.move(Taps::mouse, {0.02, -0.045, 0.025});
+  EXPECT_TRUE(effector->pose.position_m.isApprox(Vector3d(0.02, -0.15, 0.025), 1e-12));
+  drag.let_go();
+  drag.set_clone({});
+  drag.take(Taps::mouse, {0, 0.005, 0.025});
+  EXPECT_FALSE(drag.is_held()) << "there is no clone any more";
+}
+
+TEST_F(Drag, ASecondFingerTurnsItAboutTheFirst) {
+  constexpr Taps::Pointer first = 1, second = 2, third = 3;
+  const Vector3d middle = effector->pose.position_m;
+  const auto yaw_rad = [&] {
+    const Vector3d tip = effector->pose.orientation * Vector3d::UnitX();
+    return std::atan2(tip.y(), tip.x());
+  };
+  drag.take(first, middle);
+  drag.take(second, middle + Vector3d(0.1, 0, 0));
+  drag.take(third, middle + Vector3d(0, 0.1, 0));
+  drag.move(third, middle);
+  EXPECT_NEAR(yaw_rad(), M_PI / 2, 1e-12) << "a third one does nothing";
+  drag.move(second, middle + Vector3d(0.1, 0.1, 0));
+  EXPECT_NEAR(yaw_rad(), 3 * M_PI / 4, 1e-12);
+  EXPECT_EQ(effector->pose.position_m, middle);
+  drag.move(first, middle + Vector3d(0.1, 0, 0));
+  EXPECT_NEAR(yaw_rad(), M_PI, 1e-9) << "both fingers turn it";
+  EXPECT_NEAR(effector->pose.position_m.x(), middle.x() + 0.1, 1e-12);
+  drag.let_go(second);
+  drag.move(second, middle);
+  EXPECT_NEAR(yaw_rad(), M_PI, 1e-9);
+  EXPECT_TRUE(drag.is_held_by(first));
+  drag.let_go(first);
+  EXPECT_FALSE(drag.is_held());
 }
 
 TEST_F(Drag, EffectorRemainsInItsAreaAndAtItsHeight) {

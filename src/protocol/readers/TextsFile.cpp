@@ -23,7 +23,7 @@ struct PageKeys {
 constexpr std::array required_pages{
     PageKeys{"buttons", "start next back skip more finish put_cubes_back"},
     PageKeys{"slots", "left middle right"},
-    PageKeys{"consent", "title text agree decline"},
+    PageKeys{"consent", "title text agree decline", "reading"},
     PageKeys{"welcome", "title text"},
     PageKeys{"about_you",
              "title age age_under_18 age_18_24 age_25_34 age_35_44 age_45_54 age_55_or_more gender "

@@ -57,6 +57,12 @@ bool add_text(PageBuilder& builder, const std::string& page, int wished_part, in
   return false;
 }
 
+// "1:05"
+std::string minutes_of(double left_s) {
+  const auto whole_s = static_cast<int>(std::ceil(left_s));
+  return fmt::format("{}:{:02}", whole_s / 60, whole_s % 60);
+}
+
 void add_next(PageBuilder& builder, const std::string& word) {
   builder.add_primary("next", builder.bottom_button(0), builder.text("buttons", word),
                       touch_of(TouchKind::next));
@@ -164,12 +170,14 @@ void add_turning(PageBuilder& builder, int i, int n, bool answered) {
 // reading time, nor does the confirmation.
 void consent_screen(PageBuilder& builder) {
   if (!add_text(builder, "consent", builder.memory.part, 2)) return;
-  const bool has_read =
-      builder.memory.has_declined || builder.memory.up_s >= reading_time_s(builder);
-  builder
-      .add_primary("next", builder.choice_button(0), builder.text("consent", "agree"),
-                   touch_of(TouchKind::next))
-      .enabled = has_read;
+  const double left_s =
+      builder.memory.has_declined ? 0 : reading_time_s(builder) - builder.memory.up_s;
+  Control& agree = builder.add_primary("next", builder.choice_button(0),
+                                       builder.text("consent", "agree"), touch_of(TouchKind::next));
+  agree.enabled = left_s <= 0;
+  if (!agree.enabled)
+    agree.note =
+        fmt::format("{} {}", builder.text_if_any("consent", "reading"), minutes_of(left_s));
   builder.add_button("decline", builder.choice_button(1), builder.text("consent", "decline"),
                      touch_of(TouchKind::decline), 'n');
 }
@@ -200,14 +208,13 @@ void rest_screen(PageBuilder& builder) {
   if (!add_text(builder, "rest", builder.memory.part)) return;
   if (builder.state.wait_s <= 0) return add_next(builder, "next");
   const Rect area = builder.bottom_button(0);
-  const auto left_s = static_cast<int>(std::ceil(builder.state.wait_s));
   const Rect column = builder.text_area();
   const Measures& m = builder.measures;
   const float height_px = Typeface::line_height_px(m.body + m.title);
   const float top = std::min(area.y, m.height - m.margin - height_px);
   const float y =
       builder.add_lines({builder.text("rest", "time_left")}, column, top, m.body, Tone::soft);
-  builder.add_lines({fmt::format("{}:{:02}", left_s / 60, left_s % 60)}, column, y, m.title);
+  builder.add_lines({minutes_of(builder.state.wait_s)}, column, y, m.title);
 }
 
 void paused_screen(PageBuilder& builder) {

@@ -51,6 +51,9 @@ class TouchScreen {
   const Page& page() const { return page_; }
   const ScreenTexts& texts() const { return screens_.texts(); }
   bool holds(const std::string& control) const { return taps_.holds(control); }
+  /// Whether a press of an enabled control counts at this time. The painter shows the others
+  /// dimmed.
+  bool takes(const std::string& control, double t_s) const;
   /// The name of the enabled control at this pixel; a cube in the scene has its button's name.
   std::optional<std::string> target_at(float x, float y) const;
 
@@ -60,7 +63,6 @@ class TouchScreen {
     double t_s = 0;
   };
 
-  bool takes(const std::string& control, double t_s) const;
   const Control* enabled_control(const std::string& name) const;
   /// @param x of the tap
   void apply(Control control, float x, double t_s);
