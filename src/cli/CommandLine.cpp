@@ -1,7 +1,6 @@
 #include "cli/CommandLine.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -16,6 +15,7 @@
 #include "base/Names.h"
 #include "base/files/TextFile.h"
 #include "cli/Help.h"
+#include "cli/console/Terminal.h"
 
 namespace heft::cli {
 
@@ -140,10 +140,9 @@ CommandDescription described_as_given(const CLI::App& app, const std::string& be
 
 // Width of the terminal, within limits for legible lines.
 std::size_t help_width() {
-  constexpr unsigned short narrowest = 60, usual = 80, widest = 120;
-  winsize size{};
-  const bool is_known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return is_known ? std::clamp(size.ws_col, narrowest, widest) : usual;
+  constexpr int narrowest = 60, usual = 80, widest = 120;
+  const int width = std::clamp(terminal_width(STDOUT_FILENO).value_or(usual), narrowest, widest);
+  return static_cast<std::size_t>(width);
 }
 
 void add_completion(Command& program, const CLI::App& app) {

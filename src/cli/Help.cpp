@@ -7,11 +7,6 @@
 
 namespace heft::cli {
 
-namespace {
-constexpr std::size_t help_column = 28, command_column = 14;
-constexpr std::ptrdiff_t screen_lines = 24;
-
-// Words wrapped to lines from a column on; the first line already has `used` characters.
 std::string wrapped(const std::string& text, std::size_t column, std::size_t width,
                     std::size_t used) {
   if (text.empty()) return "\n";
@@ -31,6 +26,10 @@ std::string wrapped(const std::string& text, std::size_t column, std::size_t wid
   }
   return result;
 }
+
+namespace {
+constexpr std::size_t help_column = 28, command_column = 14;
+constexpr std::ptrdiff_t screen_lines = 24;
 
 // An example as lines that a shell joins: broken between words, never within quotes.
 std::string continued(std::string_view example, std::size_t width) {

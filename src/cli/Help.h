@@ -23,6 +23,11 @@ struct CommandDescription {
   std::vector<CommandDescription> commands;
 };
 
+/// Words wrapped to lines of that width that begin at a column, each with a line end.
+/// @param used characters that are already in the first line
+std::string wrapped(const std::string& text, std::size_t column, std::size_t width,
+                    std::size_t used = 0);
+
 /// Everything about a command: --help-all.
 /// @param width in characters; words and quoted texts are not broken
 std::string help_of(const CommandDescription& command, std::size_t width);

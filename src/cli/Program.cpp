@@ -61,6 +61,24 @@ int exit_code_of(const std::function<void()>& work) {
   }
 }
 
+// What a lab does next, for people at a terminal; scripts that forgot the command get an error.
+void print_start_page() {
+  const std::string quick =
+      std::filesystem::proximate(installed_file("protocols/quick.toml")).string();
+  print(
+      "Heft runs experiments on perceived mass in augmented reality. What next?\n"
+      "  see what it does          heft demo\n"
+      "  be the participant        heft run {} --participant me --tracker mouse\n"
+      "  write an experiment       heft new experiment NAME\n"
+      "  check this machine        heft doctor\n"
+      "  run a participant         heft run PROTOCOL.toml --participant 07\n"
+      "  plan a study, follow it   heft validate STUDY.toml; heft run --plan STUDY.toml\n"
+      "  look at the results       heft list; heft analyse\n"
+      "  share the data            heft export --help\n"
+      "All commands: heft --help. One of them, with examples: heft help COMMAND\n",
+      shell_quoted(quick));
+}
+
 constexpr const char* how_to_get_bench =
     "In a checkout ./heft bench builds it; otherwise install heft-bench";
 
@@ -113,6 +131,8 @@ int run_program(const ProgramDescription& program, int argc, char** argv) {
   // Reports, exports, pictures and videos are about people, as logs are.
   umask(S_IRWXG | S_IRWXO);
   return exit_code_of([&] {
+    if (program.name == "heft" && argc == 1 && isatty(STDOUT_FILENO) == 1)
+      return print_start_page();
     if (program.name == "heft" && argc > 1 && std::strcmp(argv[1], "bench") == 0)
       become_bench(argv + 2, argv + argc);
     try {

@@ -44,7 +44,7 @@ WindowView::WindowView(const ViewSetup& setup)
 
 void WindowView::show(const ViewFrame& shown, const ScreenState& screen) {
   touched_.show(screen, !shown.frame.cubes.empty());
-  in_trial_ = screen.screen == Screen::trial;
+  in_trial_ = screen.screen == Screen::trial && !screen.is_check;
   if (drag_) drag_->set_clone(shown.frame.clone);
   if (drag_ && !in_trial_) drag_->let_go();
   lay_out();

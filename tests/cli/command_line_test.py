@@ -29,6 +29,21 @@ class CommandLine(SessionTest):
         return ("run", QUICK, "--responder", "coin", "--db", self.folder / "s.db", *words)
 
 
+    def at_a_terminal(self, columns, *words):
+        """What a command prints on a terminal."""
+        terminal, end = pty.openpty()
+        termios.tcsetwinsize(end, (24, columns))
+        program = subprocess.Popen([self.heft, *words], stdout=end, cwd=self.folder)
+        os.close(end)
+        said = b""
+        with contextlib.suppress(OSError):  # the terminal has gone with its program
+            while part := os.read(terminal, 4096):
+                said += part
+        program.wait()
+        os.close(terminal)
+        return said.decode().replace("\r", "")
+
+
 class Mistakes(CommandLine):
     def test_an_unknown_command_is_named_with_the_nearest(self):
         self.assertEqual(self.says(2, "analize"), 'heft: there is no command "analize" '
@@ -174,6 +189,25 @@ class Output(CommandLine):
                 self.assertLessEqual(len(lines), 24)
                 self.assertLessEqual(max(map(len, lines)), 80)
 
+    def test_a_newcomer_is_told_what_to_do_next_in_ten_lines(self):
+        lines = self.at_a_terminal(80).splitlines()
+        self.assertLessEqual(len(lines), 10)
+        self.assertIn("What next?", lines[0])
+        known = self.run_heft("--help").stdout
+        commands = re.findall(r"heft ([a-z]+)", "\n".join(lines[1:]))
+        self.assertEqual({"demo", "run", "new", "doctor", "validate", "list", "analyse", "export"},
+                         set(commands) - {"help", "runs"})
+        for command in set(commands) - {"help"}:
+            self.assertRegex(known, rf"(?m)^  {command} ")
+        protocol = re.search(r"heft run (\S+) --participant me", "\n".join(lines)).group(1)
+        self.run_heft("validate", protocol, cwd=self.folder)
+
+    def test_lines_of_doctor_break_between_words(self):
+        verdicts = self.at_a_terminal(80, "doctor", "--db", "x.db").split("\ncameras:")[0]
+        lines = verdicts.splitlines()
+        self.assertLessEqual(max(map(len, lines)), 80, lines)
+        self.assertTrue(any(line.startswith(" " * 24) for line in lines), lines)
+
     def test_help_is_a_command_too(self):
         for words in self.every_command():
             self.assertEqual(self.run_heft("help", *words).stdout,
@@ -192,17 +226,7 @@ class Output(CommandLine):
         for command in ("run", "resume", "simulate", "replay", "doctor"):
             at_80 = self.run_heft(command, "--help-all").stdout.split("Examples:")
             self.assertEqual(len(at_80), 2, command)
-            terminal, end = pty.openpty()
-            termios.tcsetwinsize(end, (24, 70))
-            program = subprocess.Popen([self.heft, command, "--help-all"], stdout=end)
-            os.close(end)
-            said = b""
-            with contextlib.suppress(OSError):  # the terminal has gone with its program
-                while part := os.read(terminal, 4096):
-                    said += part
-            program.wait()
-            os.close(terminal)
-            narrow = said.decode().replace("\r", "").split("Examples:")
+            narrow = self.at_a_terminal(70, command, "--help-all").split("Examples:")
             for options, examples, width in (at_80 + [80], narrow + [70]):
                 self.assertLessEqual(max(map(len, options.splitlines())), width)
                 self.assertLessEqual(max(map(len, examples.splitlines())), width)

@@ -149,8 +149,8 @@ std::string staircase_sentence(const Summary& summary) {
   if (n_censored > 0) {
     std::vector<std::string> reasons;
     for (const auto& [why, n] : censored) reasons.push_back(fmt::format("{} ({})", why, n));
-    text = fmt::format("{} of {} finished staircases have a censored JND or none: {}.", n_censored,
-                       results.size(), some_of(reasons, 3));
+    text = fmt::format("{} of {} finished staircases {} a censored JND or none: {}.", n_censored,
+                       results.size(), n_censored == 1 ? "has" : "have", some_of(reasons, 3));
   }
   if (n_unfinished > 0)
     text += fmt::format("{}{} did not finish.", text.empty() ? "" : " ",

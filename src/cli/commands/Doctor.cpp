@@ -20,6 +20,7 @@
 #include "base/Program.h"
 #include "base/files/TextFile.h"
 #include "cli/Commands.h"
+#include "cli/Help.h"
 #include "cli/SessionOptions.h"
 #include "cli/console/Terminal.h"
 #include "physics/DecouplingSimulator.h"
@@ -44,7 +45,13 @@ class Report {
  public:
   void line(CheckVerdict verdict, const std::string& what, const std::string& found) {
     constexpr std::array<const char*, 3> marks{"ok     ", "warning", "FAILED "};
-    print("{}  {:<14} {}\n", marks[static_cast<std::size_t>(verdict)], what, found);
+    const std::string begin =
+        fmt::format("{}  {:<14}", marks[static_cast<std::size_t>(verdict)], what);
+    const auto width = terminal_width(STDOUT_FILENO);
+    if (width)
+      print("{}{}", begin, wrapped(found, 24, static_cast<std::size_t>(*width), begin.size()));
+    else
+      print("{} {}\n", begin, found);
     worst_ = std::max(worst_, verdict);
   }
   bool failed() const { return worst_ == CheckVerdict::failed; }

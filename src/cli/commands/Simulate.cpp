@@ -35,7 +35,7 @@ void simulate_participants(const SimulateOptions& options) {
   request.participants = options.participants;
   request.jobs = options.jobs;
   request.keep_frames = options.frames;
-  say("{} participants, protocol {}, responder {}, seed {}\n", request.participants,
+  say("{}, protocol {}, responder {}, seed {}\n", counted(request.participants, "participant"),
       request.config->protocol->name, to_text(request.config->config.responder),
       request.config->seed);
   print_simulator(request.config);

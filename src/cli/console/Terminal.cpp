@@ -189,8 +189,12 @@ bool RawTerminal::listens() {
 
 int RawTerminal::width() {
   constexpr int usual = 80;
+  return terminal_width(STDERR_FILENO).value_or(usual);
+}
+
+std::optional<int> terminal_width(int file_descriptor) {
   winsize size{};
-  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return usual;
+  if (ioctl(file_descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return std::nullopt;
   return size.ws_col;
 }
 

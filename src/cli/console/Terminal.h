@@ -9,6 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,6 +47,9 @@ void print(fmt::format_string<Args...> format, Args&&... args) {
 /// Flushes stdout, so that later messages on stderr follow it.
 /// @throws Error if it cannot be written
 void flush_output();
+
+/// Width of the terminal that a file descriptor is; none: it is no terminal.
+std::optional<int> terminal_width(int file_descriptor);
 
 /// Columns of the terminal that a line needs: many characters beyond the alphabets need two.
 int columns_of(std::string_view line);

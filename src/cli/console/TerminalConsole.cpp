@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/files/Printable.h"
+#include "cli/Help.h"
 #include "cli/console/Terminal.h"
 
 namespace heft::cli {
@@ -272,8 +273,10 @@ bool TerminalConsole::ask_to_go_on(const std::string& question) {
 }
 
 void TerminalConsole::say(const std::string& text) {
-  if (terminal_.is_there()) draw("\r\033[J");
-  cli::say("{}\n", text);
+  if (!terminal_.is_there()) return cli::say("{}\n", text);
+  constexpr std::size_t column = 2;  // of continued lines
+  draw("\r\033[J");
+  cli::say("{}", wrapped(text, column, static_cast<std::size_t>(RawTerminal::width()), column));
 }
 
 }  // namespace heft::cli

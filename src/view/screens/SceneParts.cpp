@@ -70,7 +70,7 @@ void add_put_back(PageBuilder& builder, const Rect& area) {
   builder
       .add_button("put_cubes_back", area, builder.text("buttons", "put_cubes_back"),
                   touch_of(TouchKind::put_cubes_back), key_backspace)
-      .enabled = builder.memory.cubes_shown;
+      .enabled = builder.memory.cubes_shown && !builder.state.is_check;
 }
 
 void add_hint(PageBuilder& builder) {
