@@ -72,7 +72,11 @@ struct ReplayViewOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Presents every logged frame of the session's attempts.
+/// Lines of each frame's captions: the trial with its masses and time, the answers so far, the
+/// colors.
+inline constexpr int replay_captions = 3;
+
+/// Presents every logged frame of the session's attempts, with captions.
 /// @return number of frames
 int show_session(const LogReader& reader, const LoggedSession& session, ArView& view,
                  const ReplayViewOptions& showing);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <opencv2/videoio.hpp>
@@ -14,6 +15,7 @@
 #include "tracking/codecs/Codecs.h"
 #include "view/Window.h"
 #include "view/scene/SceneDrawing.h"
+#include "view/text/Letters.h"
 
 namespace heft {
 
@@ -37,9 +39,53 @@ const Format& format_of(const std::string& file) {
               ExitCode::usage);
 }
 
+// Lines of text in a strip above the scene.
+class Captions {
+ public:
+  explicit Captions(int n_lines) : n_lines_(n_lines), letters_(make_letters("en")) {}
+
+  int height_px() const { return n_lines_ * line_px; }
+
+  // The scene with the lines above it.
+  const Image& above(const Image& scene, const std::vector<std::string>& lines) {
+    if (n_lines_ == 0) return scene;
+    image_ = Image(scene.width, scene.height + height_px(), 3);
+    const auto n_strip =
+        static_cast<std::ptrdiff_t>(height_px()) * static_cast<std::ptrdiff_t>(image_.row_bytes());
+    std::fill_n(image_.pixels.begin(), n_strip, white);
+    std::ranges::copy(scene.pixels, image_.pixels.begin() + n_strip);
+    for (int i = 0; i < std::min(n_lines_, static_cast<int>(lines.size())); ++i)
+      write(letters_->ink({lines[static_cast<std::size_t>(i)], letter_px}), i * line_px + 2);
+    return image_;
+  }
+
+ private:
+  static constexpr int line_px = 20, margin_px = 8;
+  static constexpr float letter_px = 15;
+  static constexpr std::uint8_t white = 255;
+
+  // What extends beyond the image is cut off.
+  void write(const Ink& ink, int top) {
+    for (int y = 0; y < ink.height; ++y)
+      for (int x = 0; x < ink.width; ++x) {
+        const int to_x = margin_px + ink.left + x, to_y = top + ink.top + y;
+        if (to_x < 0 || to_x >= image_.width || to_y < 0 || to_y >= image_.height) continue;
+        const auto i = static_cast<std::size_t>(y * ink.width + x);
+        const auto to = static_cast<std::size_t>(to_y) * image_.row_bytes() +
+                        static_cast<std::size_t>(3 * to_x);
+        std::fill_n(image_.pixels.begin() + static_cast<std::ptrdiff_t>(to), 3,
+                    static_cast<std::uint8_t>(white - ink.coverage[i]));
+      }
+  }
+
+  int n_lines_;
+  std::unique_ptr<Letters> letters_;
+  Image image_;
+};
+
 class VideoView final : public ArView {
  public:
-  explicit VideoView(const ViewSetup& setup) : drawing_(setup) {
+  explicit VideoView(const ViewSetup& setup) : drawing_(setup), captions_(setup.n_captions) {
     const auto& [ending, codec, writer] = format_of(setup.file);
     if (std::filesystem::exists(setup.file))
       throw Error(
@@ -47,7 +93,7 @@ class VideoView final : public ArView {
                       "remove it first",
                       setup.file));
     create_file(setup.file, 0600);  // may show people's hands
-    const Image& first = drawing_.draw({});
+    const Image& first = captions_.above(drawing_.draw({}), {});
     writer_ = codecs().writer(setup.file, writer, four_cc(codec), setup.rate_hz, first.width,
                               first.height);
     if (!writer_->isOpened())
@@ -58,7 +104,7 @@ class VideoView final : public ArView {
   }
 
   std::optional<double> present(const ViewFrame& shown, const ScreenState&) override {
-    const Image& drawn = drawing_.draw(shown);
+    const Image& drawn = captions_.above(drawing_.draw(shown), shown.captions);
     // OpenCV has no read-only images, but the writer does not change this one.
     writer_->write(cv::Mat(drawn.height, drawn.width, CV_8UC3,
                            const_cast<std::uint8_t*>(drawn.pixels.data())));
@@ -69,6 +115,7 @@ class VideoView final : public ArView {
 
  private:
   SceneDrawing drawing_;
+  Captions captions_;
   std::unique_ptr<cv::VideoWriter> writer_;  // completes the file when destroyed
 };
 }  // namespace

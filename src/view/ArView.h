@@ -25,7 +25,9 @@ struct ViewFrame {
   std::optional<Pose> camera_from_board;  ///< none: the last viewpoint, or the default
   /// How much of each camera pixel is in front of all cubes, of 255; one channel; none: unknown.
   std::shared_ptr<const Image> in_front = {};
-  std::optional<Pose> other_clone = {};  ///< of a what-if, in another color; none: not drawn
+  std::optional<Pose> other_clone = {};  ///< of a what-if, as an outline; none: not drawn
+  /// Of a replay: what is shown, for its viewers. Above a video's frames, over a window's scene.
+  std::vector<std::string> captions = {};
 };
 
 /// Configuration of a view.
@@ -38,6 +40,7 @@ struct ViewSetup {
   double text_size = 1;      ///< relative to the usual size
   bool takes_keys = false;   ///< answers from the keyboard, too
   std::string file;          ///< what follows the colon: "video:session.mp4"
+  int n_captions = 0;        ///< lines above a video's frames (ViewFrame::captions)
   double rate_hz = 15;       ///< frames per second
   Eigen::Vector2d area_m{0.40, 0.30};  ///< working area: width and depth around the board's center
   /// The part of the board frame that a window shows; none: the whole picture.

@@ -47,6 +47,7 @@ void WindowView::show(const ViewFrame& shown, const ScreenState& screen) {
   in_trial_ = screen.screen == Screen::trial && !screen.is_check;
   if (drag_) drag_->set_clone(shown.frame.clone);
   if (drag_ && !in_trial_) drag_->let_go();
+  caption_ = fmt::format("{}", fmt::join(shown.captions, "\n\n"));
   lay_out();
   clone_offset_px_.reset();
   if (!touched_.page().scene) return;
@@ -67,7 +68,7 @@ void WindowView::lay_out() {
   measures_ = measured();
   const bool untried = drag_ && in_trial_ && !drag_->was_taken();
   touched_.lay_out(typeface_, measures_, monotonic_s(),
-                   untried ? touched_.texts().if_any("trial", "drag_effector") : "");
+                   untried ? touched_.texts().if_any("trial", "drag_effector") : caption_);
   scene_.place(touched_.page().scene);
   stale_ = true;
 }

@@ -110,6 +110,7 @@ class WindowView final : public ArView {
   Typeface typeface_;
   std::optional<EffectorDrag> drag_;  ///< none: the effector is not dragged
   bool in_trial_ = false;
+  std::string caption_;  ///< of a replay
   std::optional<double> clone_offset_px_;
   double sdl_start_s_;  ///< start of SDL's event times, which are in milliseconds of the same clock
   bool stale_ = false;  ///< the page has changed since it was presented

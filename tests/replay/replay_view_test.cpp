@@ -1,4 +1,5 @@
 // Logged frames shown again.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "replay/Replay.h"
@@ -7,6 +8,7 @@
 
 namespace heft {
 namespace {
+using ::testing::HasSubstr;
 using testing::shipped_protocol;
 using testing::StoredSession;
 
@@ -40,6 +42,30 @@ TEST(ReplayViewOptions, EveryFrameAsItWasLogged) {
     ASSERT_EQ(frame.cubes.size(), rows[i].cubes.size());
     EXPECT_FALSE(view.pictures[i].other_clone);
   }
+}
+
+TEST(ReplayViewOptions, EachFrameSaysItsTrialMassesTimeAndAnswers) {
+  const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
+  Onlooker view;
+  show_session(stored.reader(), stored.session(), view, {});
+  std::size_t n = 0;
+  for (const TrialRow& trial : stored.reader().trials(stored.id())) {
+    const auto frames = stored.reader().frames(stored.id(), trial.attempt_index);
+    ASSERT_FALSE(frames.empty());
+    const auto& first = view.pictures.at(n).captions;
+    n += frames.size();
+    const auto& last = view.pictures.at(n - 1).captions;
+    ASSERT_EQ(first.size(), std::size_t{replay_captions});
+    EXPECT_THAT(first[0], HasSubstr(fmt::format("trial {}: {}, {}; left to right {:g}", trial.plan.trial_number,
+                                                trial.plan.task, trial.plan.condition,
+                                                trial.plan.masses_g[0])));
+    EXPECT_THAT(first[0], HasSubstr(" g; 0.0 s"));
+    EXPECT_EQ(first[1], "answer: none yet");
+    ASSERT_TRUE(trial.outcome);
+    EXPECT_THAT(last[1], HasSubstr(" (" + *trial.outcome + ")"));
+    EXPECT_THAT(last[2], HasSubstr("blue: clone"));
+  }
+  EXPECT_EQ(n, view.pictures.size());
 }
 
 TEST(ReplayViewOptions, AWhatIfsCloneStandsBesideTheLoggedOne) {

@@ -40,7 +40,15 @@ TEST_F(OtherClone, BothClonesAreDrawnInTheirColors) {
   EXPECT_EQ(count(alone, purple), 0);
   EXPECT_GT(count(alone, blue), 2000);
   EXPECT_EQ(count(both, blue), count(alone, blue));
-  EXPECT_NEAR(count(both, purple), count(both, blue), 0.3 * count(both, blue));
+  EXPECT_GT(count(both, purple), count(both, blue) / 10) << "an outline";
+}
+
+TEST_F(OtherClone, AnOutlineAtTheSamePlaceHidesNoClone) {
+  const int n_blue = count(drawing.draw(shown), blue);
+  shown.other_clone = shown.frame.clone;
+  const Image both = drawing.draw(shown);
+  EXPECT_GT(count(both, blue), 0.7 * n_blue);
+  EXPECT_GT(count(both, purple), 0.05 * n_blue);
 }
 
 TEST_F(OtherClone, FrameWithoutOtherCloneIsUnchanged) {

@@ -61,6 +61,32 @@ TEST(VideoView, VideoHasEveryDrawnFrame) {
   }
 }
 
+TEST(VideoView, CaptionsOfAReplayAreWrittenAboveTheScene) {
+  const TemporaryFolder folder;
+  ViewSetup setup = setup_with(Intrinsics{});
+  setup.file = folder.file("replay.avi");
+  setup.n_captions = 2;
+  ViewFrame shown = shown_as_number(setup, 1);
+  shown.captions = {"trial 1: sorting", "answer: none yet", "one too many"};
+  make_video_view(setup)->present(shown, {});
+  const auto video = codecs().capture();
+  ASSERT_TRUE(video->open(setup.file));
+  cv::Mat read;
+  ASSERT_TRUE(video->read(read));
+  SceneDrawing drawing(setup);
+  const Image& drawn = drawing.draw(shown);
+  const int strip_px = read.rows - drawn.height;
+  ASSERT_EQ(strip_px % 2, 0);
+  const int line_px = strip_px / 2;
+  EXPECT_LT(mean_difference(read.rowRange(strip_px, read.rows).clone(), drawn), 3);
+  for (int line = 0; line < 2; ++line) {
+    const cv::Mat strip = read.rowRange(line * line_px, (line + 1) * line_px);
+    const double white = cv::mean(strip.colRange(read.cols / 2, read.cols))[0];
+    EXPECT_GT(white, 250) << "the lines are short";
+    EXPECT_LT(cv::mean(strip.colRange(0, 120))[0], 235) << "ink of line " << line;
+  }
+}
+
 void expect_refused(const std::string& file, const char* why) {
   ViewSetup setup = setup_with(std::nullopt);
   setup.file = file;

@@ -301,6 +301,7 @@ void show(const LogReader& reader, const ReplayOptions& options) {
   setup.left_handed = session.setup.controls == Side::left;
   setup.text_size = session.protocol->screens.text_size;
   setup.file = file;
+  setup.n_captions = replay_captions;
   setup.rate_hz = session.protocol->display_rate_hz;
   const StopOnSignal stop;
   const auto view = entry.make(setup);

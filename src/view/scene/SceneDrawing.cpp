@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 // skin of the filmed scene. Blue, green, red.
 constexpr std::array cube_face{52, 182, 255}, cube_edge{10, 84, 146};
 constexpr std::array clone_face{228, 110, 8}, clone_edge{110, 34, 0};
-constexpr std::array other_face{167, 121, 204}, other_edge{96, 52, 120};
+constexpr std::array other_edge{200, 30, 230};  // violet
 constexpr std::array effector_face{140, 146, 150}, effector_edge{84, 88, 92};
 
 // The filmed effector remains visible through its clone.
@@ -104,7 +104,7 @@ void SceneDrawing::draw_virtual(const ViewFrame& shown) {
              {clone_face, clone_edge, clone_opacity, 0});
   if (shown.other_clone)
     draw_box(rasterizer_, viewpoint_, *shown.other_clone, stage_.effector_size_m,
-             {other_face, other_edge, clone_opacity, 0});
+             {{}, other_edge, 1, 0, true});
   rasterizer_.paint(frame_, shown.in_front.get());
 }
 
@@ -151,7 +151,7 @@ std::optional<Vector2d> SceneDrawing::label_place(int slot) const {
 }
 
 namespace {
-constexpr double edge_line_m = 0.0009;
+constexpr double edge_line_m = 0.0009, outline_m = 0.002;
 constexpr double ambient = 0.62;  // light on a face that the lamp does not reach
 
 // Direction to the lamp: above the table, behind the participant's left shoulder.
@@ -190,6 +190,7 @@ int pieces_of_box(const Viewpoint& viewpoint, const Pose& board_from_box, const 
 struct BorderedQuad {
   Vector3d corner_m, along_m, across_m;  // board frame: a corner, two sides from it
   double border_m = 0;                   // width of the line
+  bool hollow = false;                   // only the line
   int pieces = 1;                        // in each direction, to follow the lens distortion
 };
 
@@ -239,8 +240,9 @@ void draw_quad(Rasterizer& rasterizer, const Viewpoint& viewpoint, const Bordere
     const Row upper = row_at(j);
     for (std::size_t i = 1; i < static_cast<std::size_t>(along.n); ++i) {
       const bool outer = j == 1 || j == across.n - 1 || i == 1 || i + 1 == std::size_t(along.n);
-      fill_quad(rasterizer, viewpoint, {lower[i - 1], lower[i], upper[i], upper[i - 1]},
-                outer ? border : inside);
+      if (outer || !quad.hollow)
+        fill_quad(rasterizer, viewpoint, {lower[i - 1], lower[i], upper[i], upper[i - 1]},
+                  outer ? border : inside);
     }
     lower = upper;
   }
@@ -259,7 +261,8 @@ void draw_box(Rasterizer& rasterizer, const Viewpoint& viewpoint, const Pose& bo
     const Vector3d along_m = axes.col(i) * size_m[i], across_m = axes.col(j) * size_m[j];
     const double light = light_on(normal);
     draw_quad(rasterizer, viewpoint,
-              {center_m - (along_m + across_m) / 2, along_m, across_m, edge_line_m, pieces},
+              {center_m - (along_m + across_m) / 2, along_m, across_m,
+               look.outlined ? outline_m : edge_line_m, look.outlined, pieces},
               rasterizer.add_surface(lit(look.face_bgr, light, look)),
               rasterizer.add_surface(lit(look.edge_bgr, light, look)));
   }
@@ -271,7 +274,8 @@ void draw_sheet(Rasterizer& rasterizer, const Viewpoint& viewpoint, const Eigen:
   const Vector3d corner_m = -(along_m + across_m) / 2;
   const int pieces = std::max(viewpoint.pieces(corner_m, corner_m + along_m),
                               viewpoint.pieces(corner_m, corner_m + across_m));
-  draw_quad(rasterizer, viewpoint, {corner_m, along_m, across_m, border_m, pieces}, inside, border);
+  draw_quad(rasterizer, viewpoint, {corner_m, along_m, across_m, border_m, false, pieces}, inside,
+            border);
 }
 
 }  // namespace heft

@@ -64,7 +64,8 @@ class SceneDrawing {
 struct BoxLook {
   std::array<int, 3> face_bgr{}, edge_bgr{};
   double opacity = 1;
-  int object = 0;  ///< for Rasterizer::find_object
+  int object = 0;         ///< for Rasterizer::find_object
+  bool outlined = false;  ///< only its edges, as wide lines
 };
 
 /// Draws a box lit by the scene's one fixed lamp.
