@@ -112,9 +112,11 @@ figure { margin: 1.5rem 0; break-inside: avoid; }
 figcaption { font-size: 0.9rem; max-width: 60rem; }
 nav ul { columns: 2; font-size: 0.9rem; }
 h2, h3 { break-after: avoid; }
-@media print { body { max-width: none; margin: 0; font-size: 11px; } nav { display: none; }
-  .unverified { position: fixed; top: 0; right: 0; margin: 0; }
-  table { display: table; } a { color: inherit; text-decoration: none; } }
+@media print { html { font-size: 10px; } body { max-width: none; margin: 0; font-size: 1.1rem; }
+  .unverified { position: fixed; top: 0; right: 0; margin: 0; } nav { display: none; }
+  table { display: table; } th, td { padding: 0.1rem 0.4rem; }
+  td { overflow-wrap: anywhere; } td.n { white-space: nowrap; overflow-wrap: normal; }
+  a { color: inherit; text-decoration: none; } }
 @page { size: A4; margin: 15mm; }
 )";
 
