@@ -68,8 +68,8 @@ std::string unexpected_words(const CLI::App& app, const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) options.push_back(option->get_name());
   const auto option =
       std::ranges::find_if(words, [](const std::string& word) { return word.starts_with("--"); });
-  return fmt::format("unexpected: {}{}", fmt::join(words, " "),
-                     option == words.end() ? "" : nearest_hint(*option, options));
+  if (option == words.end()) return fmt::format("too many arguments: {}", fmt::join(words, " "));
+  return fmt::format("there is no option {}{}", *option, nearest_hint(*option, options));
 }
 
 // A misspelled option makes the intended one appear missing.

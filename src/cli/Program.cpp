@@ -30,7 +30,7 @@ Error explained(const std::exception& error) {
   if (const auto* system = dynamic_cast<const std::system_error*>(&error))
     return std::ferror(stdout) != 0 ? output_error(system->code().message())
                                     : Error(system->what());
-  return Error(fmt::format("unexpected: {}", error.what()));
+  return Error(fmt::format("an error of heft itself, please report it: {}", error.what()));
 }
 
 int fail(const Error& error) {

@@ -71,7 +71,9 @@ class Trial {
     const double since_s = trial_.clock.now_s();
     while (trial_.clock.now_s() < since_s + patience_s) {
       trial_.pictures.skip_to(trial_.clock.now_s() - start_s_);
-      if (auto picture = trial_.pictures.next()) {
+      auto picture = trial_.pictures.next();
+      const bool is_silence = picture && !picture->trouble.empty() && !picture->camera;
+      if (picture && !is_silence) {
         const double due_s = start_s_ + picture->sample.t_capture_s;
         while (trial_.clock.now_s() < due_s) trial_.view.wait(due_s - trial_.clock.now_s());
         return picture;

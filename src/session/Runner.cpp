@@ -53,8 +53,10 @@ std::string Runner::failed_checks() {
   std::string failed;
   const bool measures_display = parts_.view.display().has_value();
   const ScreenState setting_up{.screen = Screen::setting_up};
-  if (measures_display || (parts_.has_screen && parts_.pictures.has_checks()))
+  if (measures_display || (parts_.has_screen && parts_.pictures.has_checks())) {
     screen_.present({}, setting_up);
+    if (options_.console) options_.console->say("checking camera and display: a few seconds");
+  }
   const std::vector<CheckResult> results = check_equipment(
       {parts_.protocol, parts_.pictures, parts_.responder, parts_.view, parts_.clock});
   if (measures_display) screen_.present({}, setting_up);
@@ -80,8 +82,8 @@ void Runner::refuse_unchecked(const std::string& failed) {
   control_.leave("failed check: " + failed);
   throw Error(fmt::format(
       "the check of the apparatus failed ({}), and without a terminal there is no one to "
-      "ask. The participant has seen nothing. Fix it and continue with heft "
-      "resume, or add --go-on to continue anyway",
+      "ask. The participant saw no trial. Fix it and continue with heft resume, or add --go-on to "
+      "continue anyway",
       failed));
 }
 

@@ -74,7 +74,7 @@ TEST(FirstScreen, ShowsWhatDeservesAttention) {
                            "1 of 3 attempts were void and presented again: camera stalled (1).",
                            "Tracking was lost in 1 of 3 attempts, for 2.5 s in all.",
                            "2 of 2 responses were anticipatory", "deviation (1)",
-                           "1 of 1 finished staircases have a censored JND",
+                           "1 of 1 finished staircases has a censored JND",
                            "The threshold is not identifiable at 15 g in"})
     EXPECT_THAT(found, Contains(HasSubstr(part)));
 }

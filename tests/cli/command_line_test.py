@@ -60,12 +60,12 @@ class Mistakes(CommandLine):
                       ["simulate", QUICK, "--participants", "0"]):
             self.assertIn(f"heft {words[0]} --help", self.says(2, *words))
         said = self.says(2, "replay", "--sesion", "3")
-        self.assertIn("unexpected: --sesion 3 (did you mean --session?)", said)
+        self.assertIn("there is no option --sesion (did you mean --session?)", said)
 
     def test_a_misspelled_option_is_told_before_what_it_left_out(self):
         for wrong, meant in (("--partcipant", "--participant"), ("--participnt", "--participant")):
             said = self.says(2, "run", QUICK, wrong, "01")
-            self.assertIn(f"unexpected: {wrong} 01 (did you mean {meant}?)", said)
+            self.assertIn(f"there is no option {wrong} (did you mean {meant}?)", said)
         self.assertIn("--participant is required", self.says(2, "run", QUICK))
 
     def test_numbers_are_decimal_digits(self):
