@@ -338,7 +338,7 @@ class FailedCheck(AtAConsole):
             (wall / f"{i}.pgm").write_bytes(b"P5 640 480 255\n" + bytes([128]) * 640 * 480)
         self.start("--tracker", f"frames:{wall}", "--camera-file",
                    str(PROTOCOLS / "apparatus" / "synthetic_camera.yaml"))
-        self.shows("FAILED   board")
+        self.shows("FAILED board")
         self.shows("  setting_up  ")
         self.shows("continue? y continues, n leaves, r checks again")
         self.assertEqual(self.n("text_shown", "and detail not like '%setting_up%'"), 0)
