@@ -13,6 +13,11 @@ namespace {
 using Clock = std::chrono::system_clock;
 }  // namespace
 
+std::string minutes_text(double seconds) {
+  const auto whole_s = static_cast<long>(seconds);
+  return fmt::format("{}:{:02}", whole_s / 60, whole_s % 60);
+}
+
 std::string utc_of(std::chrono::system_clock::time_point time) {
   // floor also rounds times before 1970 down.
   const auto second = std::chrono::floor<std::chrono::seconds>(time);

@@ -1,4 +1,4 @@
-// The monotonic clock of the machine and UTC times as text.
+// The monotonic clock of the machine, UTC times and durations as text.
 #pragma once
 
 #include <chrono>
@@ -11,6 +11,9 @@ namespace heft {
 inline double monotonic_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+/// Minutes and seconds, e.g. 1:05; fractions of a second are cut off.
+std::string minutes_text(double seconds);
 
 /// ISO 8601 with milliseconds, e.g. 2026-11-21T05:54:45.123Z
 std::string utc_of(std::chrono::system_clock::time_point time);

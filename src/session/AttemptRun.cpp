@@ -5,14 +5,13 @@
 #include <algorithm>
 
 #include "base/Error.h"
+#include "session/DisplayCheck.h"
 
 namespace heft {
 
 namespace {
-constexpr double look_up_s = 0.004;  // polling interval of a live camera
 constexpr double longest_wait_s = 0.02;
 constexpr double longest_unseen_s = 120;  // with no experimenter to act on it
-constexpr double late_periods = 2;        // of the display; a later frame counts as late
 
 // Copies a picture's effector sample to a frame's row.
 FrameRow row_of(const Picture& picture, double start_s) {

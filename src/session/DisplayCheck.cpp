@@ -11,12 +11,11 @@
 namespace heft {
 
 namespace {
+constexpr const char* check_name = "picture rate";
 constexpr int n_wanted = 60;
 constexpr double patience_s = 2;                            // for one picture
-constexpr double look_up_s = 0.004;                         // polling interval, as in trials
 constexpr double slower = 1.1;                              // a period longer than the protocol's
 constexpr double dropped_limit = 0.1, dropped_note = 0.02;  // fractions of pictures
-constexpr double late_periods = 2;                          // as trials count late frames
 constexpr double mass_g = 200;                              // arbitrary
 
 // The page with most cubes; a typical one if the protocol has no trials.
@@ -101,9 +100,8 @@ class Trial {
 }  // namespace
 
 CheckResult display_verdict(const std::vector<PresentedPicture>& pictures, double wanted_rate_hz) {
-  constexpr auto name = "picture rate";
   if (pictures.size() < 2)
-    return {CheckVerdict::failed, name, "not measured: no pictures to display arrive"};
+    return {CheckVerdict::failed, check_name, "not measured: no pictures to display arrive"};
   std::vector<double> delays_s;
   int n_dropped = 0;
   for (const PresentedPicture& picture : pictures) {
@@ -118,15 +116,15 @@ CheckResult display_verdict(const std::vector<PresentedPicture>& pictures, doubl
       "a picture each {:.1f} ms, {:.0f} ms after its capture (99 %: {:.0f} ms), {} of {} dropped",
       1e3 * period_s, 1e3 * *quantile(delays_s, 0.5), 1e3 * worst_s, n_dropped, n + n_dropped);
   if (period_s > slower * wanted_s || dropped > dropped_limit)
-    return {CheckVerdict::failed, name,
+    return {CheckVerdict::failed, check_name,
             fmt::format("{}, but the protocol displays one each {:.1f} ms: end other programs, use "
                         "a smaller display mode or camera mode, or a machine with a graphics card",
                         figure, 1e3 * wanted_s)};
   if (worst_s > late_periods * wanted_s || dropped > dropped_note)
-    return {CheckVerdict::warning, name,
+    return {CheckVerdict::warning, check_name,
             fmt::format("{}; expected within {:.0f} ms, and {:.0f} % dropped at most", figure,
                         1e3 * late_periods * wanted_s, 100 * dropped_note)};
-  return {CheckVerdict::ok, name, figure};
+  return {CheckVerdict::ok, check_name, figure};
 }
 
 std::vector<CheckResult> check_equipment(const DisplayedTrial& trial) {
@@ -135,7 +133,7 @@ std::vector<CheckResult> check_equipment(const DisplayedTrial& trial) {
   if (!trial.view.display()) return results;
   results.push_back(trial.pictures.is_endless()
                         ? display_verdict(Trial(trial).run(), rate_hz)
-                        : CheckResult{CheckVerdict::ok, "picture rate",
+                        : CheckResult{CheckVerdict::ok, check_name,
                                       "not measured: the pictures come from a file"});
   return results;
 }

@@ -13,6 +13,9 @@
 
 namespace heft {
 
+/// Periods of the display after its capture; a frame that is presented later counts as late.
+inline constexpr double late_periods = 2;
+
 /// A picture that was displayed.
 struct PresentedPicture {
   double capture_s = 0, present_s = 0;  ///< session time

@@ -42,7 +42,8 @@ const Format& format_of(const std::string& file) {
 // Lines of text in a strip above the scene.
 class Captions {
  public:
-  explicit Captions(int n_lines) : n_lines_(n_lines), letters_(make_letters("en")) {}
+  explicit Captions(int n_lines)
+      : n_lines_(n_lines), letters_(n_lines > 0 ? make_letters("en") : nullptr) {}
 
   int height_px() const { return n_lines_ * line_px; }
 
@@ -79,7 +80,7 @@ class Captions {
   }
 
   int n_lines_;
-  std::unique_ptr<Letters> letters_;
+  std::unique_ptr<Letters> letters_;  // none without lines
   Image image_;
 };
 

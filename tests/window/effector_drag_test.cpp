@@ -53,7 +53,7 @@ TEST_F(Drag, OnePointerHoldsItUntilRelease) {
 TEST_F(Drag, TheCloneCanBeTakenWhichIsAllThatIsSeenOfIt) {
   drag.set_clone(upright_pose({0, -0.03, 0.025}, M_PI / 2));
   drag.take(Taps::mouse, {0, 0.005, 0.025});
-  ASSERT_TRUE(drag.is_held_by(Taps::mouse)) << "at the clone's tip, in front of its own";
+  ASSERT_TRUE(drag.is_held_by(Taps::mouse)) << "at the clone's tip, ahead of the effector's";
   drag.move(Taps::mouse, {0.02, -0.045, 0.025});
   EXPECT_TRUE(effector->pose.position_m.isApprox(Vector3d(0.02, -0.15, 0.025), 1e-12));
   drag.let_go();

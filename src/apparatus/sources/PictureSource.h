@@ -31,6 +31,9 @@ struct Picture {
   int n_dropped = 0;  ///< by the camera, since the previous picture
 };
 
+/// Interval at which a live source is asked for its next picture.
+inline constexpr double look_up_s = 0.004;
+
 /// The number of a trial before the session's trials, whose pictures are not recorded.
 inline constexpr int before_trials = 0;
 

@@ -31,7 +31,6 @@
 #include "session/Equipment.h"
 #include "session/Session.h"
 #include "tracking/calibration/ShutterCalibration.h"
-#include "tracking/camera/Camera.h"
 #include "tracking/camera/VideoDevices.h"
 #include "view/ArView.h"
 #include "view/Window.h"
@@ -181,10 +180,10 @@ std::vector<DisplayFacts> displays_if_any() try {
 }
 
 // From a touch to disk and display. One of fifty may be late.
-void check_touch_delay(Report& report, const std::string& folder, const ScreenTexts& texts) try {
+void check_touch_delay(Report& report, const std::string& folder, const ScreenTexts& texts,
+                       const std::vector<DisplayFacts>& found) try {
   constexpr int n_taps = 50;
   constexpr double usual_refresh_hz = 60, beside_a_frame_s = 0.020;
-  const auto found = displays_if_any();
   if (found.empty())
     return report.line(CheckVerdict::ok, "touch delay", "not measured: there is no display");
   const WrittenForTrial file(folder);
@@ -231,9 +230,9 @@ void check_shutter(Report& report, const Intrinsics& camera) {
 
 // The check before a session: the camera, if one is given, and the display, if there is one.
 // Without a camera the window shows the rendered pictures of tracker mouse.
-void check_as_before_a_session(Report& report, SessionOptions given, double rate_hz) {
+void check_as_before_a_session(Report& report, SessionOptions given, double rate_hz,
+                               bool has_display) {
   const bool has_camera = given.tracker.has_value();
-  const bool has_display = !displays_if_any().empty();
   if (!has_camera && !has_display) return;
   if (has_camera && tracker_named(given.tracker->name).what != TrackerWhat::source)
     throw Error("--tracker: expected camera:N, video:FILE or frames:FOLDER", ExitCode::usage);
@@ -296,10 +295,11 @@ void diagnose(const std::string& db, const SessionOptions& given, double rate_hz
   check_log(report, db);
   const ScreenTexts texts = load_texts(texts_file("en"));
   check_displays(report, texts);
-  check_touch_delay(report, folder, texts);
+  const std::vector<DisplayFacts> displays = displays_if_any();
+  check_touch_delay(report, folder, texts, displays);
   for (const CheckResult& result : outlet_verdicts())
     report.line(result.verdict, result.name, result.finding);
-  check_as_before_a_session(report, given, rate_hz);
+  check_as_before_a_session(report, given, rate_hz, !displays.empty());
   print_next_steps();
   if (report.failed()) throw Error("this machine is not ready; see the lines marked FAILED");
 }

@@ -283,8 +283,8 @@ void run(RunOptions options) {
   print_simulator(request.config);
   if (request.config->tracker->is_dragged)
     say("heft: drag the effector in the window (tracker mouse) with mouse or finger; the wheel or "
-        "a "
-        "second finger turns it. For trying and teaching only; the log and every report say so\n");
+        "a second finger turns it. For trying and teaching only; the log and every report say "
+        "so\n");
   const auto start = [&](const RunnerOptions& runner) { return start_session(request, runner); };
   say_finished(run_session({request.config, request.db, options.unblind, options.go_on,
                             options.events, place_words(options.participant_info)},

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "apparatus/LoggedSession.h"
+#include "base/Clock.h"
 #include "base/Error.h"
 #include "base/files/Printable.h"
 #include "cli/Commands.h"
@@ -72,11 +73,6 @@ std::map<std::string, std::string> participant_reports(const SessionRow& row) {
   return reported;
 }
 
-std::string minutes(double t_s) {
-  const auto seconds = static_cast<long>(t_s);
-  return fmt::format("{}:{:02}", seconds / 60, seconds % 60);
-}
-
 void print_head(const SessionFacts& facts) {
   const SessionHeader& header = facts.row.header;
   print("session {}: participant {}, protocol {}, purpose {}, seed {}\n", facts.row.session_id,
@@ -88,7 +84,7 @@ void print_head(const SessionFacts& facts) {
           place->order.empty() ? "" : ", order " + escaped_line(place->order));
   if (!facts.head.empty()) print("head of the log: {}\n", short_head(facts.head));
   print("{}; trials: {} completed, {} void; {} minutes of session time; started {}\n",
-        name_of(facts.row.state), trials_text(facts), facts.n_void, minutes(facts.duration_s),
+        name_of(facts.row.state), trials_text(facts), facts.n_void, minutes_text(facts.duration_s),
         header.started_utc);
 }
 
@@ -107,7 +103,7 @@ void print_progress(const std::vector<TrialRow>& trials) {
   for (const TrialRow& trial : trials)
     if (trial.status == TrialStatus::voided)
       print("  void: trial {}, attempt {}, at {}: {}\n", trial.plan.trial_number,
-            trial.plan.attempt, minutes(trial.ended_s.value_or(trial.started_s)),
+            trial.plan.attempt, minutes_text(trial.ended_s.value_or(trial.started_s)),
             escaped_line(trial.void_reason.value_or("")));
 }
 
@@ -161,7 +157,7 @@ void print_checks(const std::vector<LoggedEvent>& events) {
   for (const LoggedEvent& logged : events)
     if (const auto* check = logged.event.as<CheckResult>()) {
       if (!std::exchange(any, true)) print("\nchecks of the apparatus\n");
-      print("  {} {}: {} ({})\n", minutes(logged.event.t_s), escaped_line(check->name),
+      print("  {} {}: {} ({})\n", minutes_text(logged.event.t_s), escaped_line(check->name),
             escaped_line(check->finding), name_of(check->verdict));
     }
 }
@@ -172,7 +168,7 @@ void print_course(const std::vector<LoggedEvent>& events) {
     if (!is_listed(logged.event)) continue;
     if (!std::exchange(any, true)) print("\nwhat happened\n");
     const EventRow row = row_of(logged.event);
-    print("  {} {}{}{}\n", minutes(row.t_s), name_of(row.kind), row.detail.empty() ? "" : ": ",
+    print("  {} {}{}{}\n", minutes_text(row.t_s), name_of(row.kind), row.detail.empty() ? "" : ": ",
           readable(row.detail));
   }
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/Clock.h"
 #include "base/files/Printable.h"
 #include "cli/Help.h"
 #include "cli/console/Terminal.h"
@@ -54,8 +55,7 @@ std::string tracking_words(const ConsoleStatus& status, bool brief) {
 }
 
 std::string status_words(const ConsoleStatus& status, double expected_trials, bool brief) {
-  const auto seconds = static_cast<long>(status.session_s);
-  std::string line = fmt::format("{}:{:02}", seconds / 60, seconds % 60);
+  std::string line = minutes_text(status.session_s);
   if (status.paused) line += status.paused_itself ? "  PAUSED ITSELF" : "  PAUSED";
   line += fmt::format("  {} trials  {}",
                       of_about(status.n_completed, expected_trials, brief ? "/" : " of about "),

@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "base/Clock.h"
 #include "view/screens/ScreenPages.h"
 
 namespace heft {
@@ -57,10 +58,9 @@ bool add_text(PageBuilder& builder, const std::string& page, int wished_part, in
   return false;
 }
 
-// "1:05"
-std::string minutes_of(double left_s) {
-  const auto whole_s = static_cast<int>(std::ceil(left_s));
-  return fmt::format("{}:{:02}", whole_s / 60, whole_s % 60);
+// Time left to wait; 0:00 only when nothing is left.
+std::string time_left(double left_s) {
+  return minutes_text(std::ceil(left_s));
 }
 
 void add_next(PageBuilder& builder, const std::string& word) {
@@ -176,8 +176,7 @@ void consent_screen(PageBuilder& builder) {
                                        builder.text("consent", "agree"), touch_of(TouchKind::next));
   agree.enabled = left_s <= 0;
   if (!agree.enabled)
-    agree.note =
-        fmt::format("{} {}", builder.text_if_any("consent", "reading"), minutes_of(left_s));
+    agree.note = fmt::format("{} {}", builder.text_if_any("consent", "reading"), time_left(left_s));
   builder.add_button("decline", builder.choice_button(1), builder.text("consent", "decline"),
                      touch_of(TouchKind::decline), 'n');
 }
@@ -214,7 +213,7 @@ void rest_screen(PageBuilder& builder) {
   const float top = std::min(area.y, m.height - m.margin - height_px);
   const float y =
       builder.add_lines({builder.text("rest", "time_left")}, column, top, m.body, Tone::soft);
-  builder.add_lines({minutes_of(builder.state.wait_s)}, column, y, m.title);
+  builder.add_lines({time_left(builder.state.wait_s)}, column, y, m.title);
 }
 
 void paused_screen(PageBuilder& builder) {
