@@ -67,6 +67,22 @@ void Body::integrate(const Velocity& at, double h_s) {
   shape.axes = pose.orientation.toRotationMatrix();
 }
 
+void Body::look_ahead(double ahead_s) {
+  looks_ahead_ = ahead_s > 0 && !asleep;
+  if (!looks_ahead_) return;
+  pose_before_ = pose;
+  shape_before_ = shape;
+  lead_velocity = velocity;
+  if (driven && !step.rotates) lead_velocity.angular_rad_s = step.mean.angular_rad_s;
+  integrate(lead_velocity, ahead_s);
+}
+
+void Body::end_look_ahead() {
+  if (!looks_ahead_) return;
+  pose = pose_before_;
+  shape = shape_before_;
+}
+
 // A constant force changes the mean velocity by half as much as the velocity at the end.
 void Body::set_free_motion(double gravity_m_s2, const StepTime& time) {
   const Vector3d velocity_gain_m_s(0, 0, -time.h_s * gravity_m_s2);

@@ -66,6 +66,7 @@ struct Body {
   // Mean contact force on a driven body over its last step and that step's length; 0: unknown.
   Eigen::Vector3d mean_force_n = Eigen::Vector3d::Zero();
   double force_duration_s = 0;
+  Velocity lead_velocity;  ///< of the last look_ahead()
 
   bool is_active() const { return solid && !asleep; }
   void set_size(const Eigen::Vector3d& size_m);
@@ -77,6 +78,10 @@ struct Body {
   void integrate(const Velocity& at, double h_s);
   /// Sets the motion under gravity, without contacts.
   void set_free_motion(double gravity_m_s2, const StepTime& time);
+  /// Moves ahead at the current velocity, for contacts as they will be in the middle of a step; not
+  /// if asleep or by 0 s.
+  void look_ahead(double ahead_s);
+  void end_look_ahead();
   void wake() {
     asleep = false;
     at_rest_s = 0;
@@ -89,6 +94,10 @@ struct Body {
 
  private:
   Eigen::Vector3d gyroscopic_change(double h_s) const;
+
+  bool looks_ahead_ = false;
+  Pose pose_before_;  // of look_ahead()
+  Box shape_before_;
 };
 
 }  // namespace heft::boxes

@@ -20,12 +20,8 @@ constexpr double flush_m = 1e-9;
 // Faster approach is an impact. Contact forces stop slower approach within a step and return a
 // third of it, which friction and weight remove in the same step.
 constexpr double impact_m_s = 0.01, impact_m_s2 = 10;
-constexpr double min_step_s = 1e-6;        // up to an event
-constexpr double min_remainder_s = 5e-6;   // of a step after an event
-constexpr double max_extrapolation = 100;  // of Anderson mixing, in sweeps
-constexpr int max_sweeps = 300;
-constexpr double converged_m_s = 1e-5;  // largest velocity change of the last sweep
-constexpr double diverged_m_s = 0.01;   // larger last changes mean that no solution exists
+constexpr double min_step_s = 1e-6;       // up to an event
+constexpr double min_remainder_s = 5e-6;  // of a step after an event
 }  // namespace
 
 BoxWorld::BoxWorld(const ContactSurface& surface, double gravity_m_s2, std::size_t n_bodies)
@@ -145,9 +141,10 @@ bool BoxWorld::wake_within_reach(double h_s) {
 }
 
 double BoxWorld::advance(double h_s, const StepOptions& options) {
-  set_motions(h_s, options);
+  const StepTime time = time_of(h_s, options);
+  set_motions(time, options.driver);
   update_neighbors(h_s);
-  if (wake_within_reach(h_s)) set_motions(h_s, options);
+  if (wake_within_reach(h_s)) set_motions(time, options.driver);
   const double approach_m_s = find_contacts(h_s, options.lookahead_s);
   was_impact_ = options.splits_at_events &&
                 approach_m_s > std::min(impact_m_s, impact_m_s2 * options.lookahead_s);
@@ -155,28 +152,38 @@ double BoxWorld::advance(double h_s, const StepOptions& options) {
     solve_impact(options.driver);
     return 0;
   }
-  solve(h_s, options);
+  solve(time, options);
   const Event event = options.splits_at_events ? next_event(h_s) : Event{};
   if (event.fraction < 1) {
     h_s = std::min(h_s, std::max(event.fraction * h_s, min_step_s));
-    set_motions(h_s, options);
-    solve(h_s, options);
+    const StepTime shorter = time_of(h_s, options);
+    set_motions(shorter, options.driver);
+    solve(shorter, options);
   }
-  move(h_s, event.ends_contact);
+  move(h_s, event.changes_force);
   return h_s;
 }
 
-void BoxWorld::set_motions(double h_s, const StepOptions& options) {
+// The law of compliant contacts needs no lookahead beyond the next step.
+StepTime BoxWorld::time_of(double h_s, const StepOptions& options) const {
+  return {h_s, surface_.is_rigid() ? options.lookahead_s : h_s};
+}
+
+void BoxWorld::set_motions(const StepTime& time, const Driver& driver) {
   for (Body& body : bodies_) {
     if (body.driven)
-      options.driver.set_motion(body, {h_s, options.lookahead_s});
+      driver.set_motion(body, time);
     else if (!body.asleep)
-      body.set_free_motion(gravity_m_s2_, {h_s, options.lookahead_s});
+      body.set_free_motion(gravity_m_s2_, time);
   }
 }
 
+// Compliant contacts have the geometry of the middle of the step: lever arms and normals turn with
+// a cube. Rigid ones have that of the start, where their points touch exactly.
 // @return the largest approach speed of points in contact, m/s
 double BoxWorld::find_contacts(double h_s, double regular_s) {
+  const double ahead_s = surface_.is_rigid() ? 0 : h_s / 2;
+  for (Body& body : bodies_) body.look_ahead(ahead_s);
   double approach_m_s = 0;
   touching_.clear();
   for (Pair& pair : pairs_) {
@@ -190,10 +197,11 @@ double BoxWorld::find_contacts(double h_s, double regular_s) {
     else if (!pair.manifold.is_current(margin_m))
       pair.manifold.update(contact(pair, h_s, margin_m), first, second, surface_, margin_m);
     if (pair.manifold.empty()) continue;
-    approach_m_s = std::max(approach_m_s, pair.manifold.begin_step(regular_s));
+    approach_m_s = std::max(approach_m_s, pair.manifold.begin_step(regular_s, ahead_s));
     pair.manifold.extrapolate_impulses();
     touching_.push_back(&pair.manifold);
   }
+  for (Body& body : bodies_) body.end_look_ahead();
   // Sweeps converge faster from the table up. But where a coupled clone presses a cube into the
   // table there is no solution, and the last contact, with the table, must win.
   if (surface_.shortcuts) std::ranges::reverse(touching_);
@@ -202,7 +210,7 @@ double BoxWorld::find_contacts(double h_s, double regular_s) {
 
 void BoxWorld::solve_impact(const Driver& driver) {
   ++counts_.hits;
-  set_motions(0, {driver});
+  set_motions({0, 0}, driver);
   for (Body& body : bodies_) body.step.begin(0);
   for (ContactManifold* manifold : touching_) {
     manifold->begin_impact();
@@ -217,8 +225,7 @@ void BoxWorld::solve_impact(const Driver& driver) {
     }
 }
 
-void BoxWorld::solve(double h_s, const StepOptions& options) {
-  const StepTime time{h_s, options.lookahead_s};
+void BoxWorld::solve(const StepTime& time, const StepOptions& options) {
   for (Body& body : bodies_)
     if (!body.asleep) body.step.begin(time.mean_weight());
   for (ContactManifold* manifold : touching_) {
@@ -231,77 +238,15 @@ void BoxWorld::solve(double h_s, const StepOptions& options) {
     if (!body.asleep) body.step.finish(time.mean_weight(), body.driven);
 }
 
-// If sweeps diverge, they are repeated without warm start and mixing, where each sweep dissipates
-// energy. Where a clone squeezes a cube there is no solution and the impulses grow without bound;
-// they must not start the next step.
-void BoxWorld::iterate() {
-  double change_m_s = run_sweeps(surface_.shortcuts);
-  if (change_m_s > diverged_m_s) {
-    clear_impulses();
-    for (Body& body : bodies_) body.step.constrained = body.step.free;
-    change_m_s = run_sweeps(false);
-  }
-  if (change_m_s > converged_m_s) ++counts_.not_converged;
-  if (change_m_s > diverged_m_s) clear_impulses();
-}
-
-void BoxWorld::clear_impulses() {
-  for (ContactManifold* manifold : touching_) manifold->clear_impulses();
-}
-
-// @return the largest change of a point's velocity in the last sweep, m/s
-double BoxWorld::run_sweeps(bool accelerated) {
-  for (ContactManifold* manifold : touching_) manifold->begin_sweeps();
-  for (Body& body : bodies_) body.step.begin_sweeps();
-  last_energy_j_ = 0;
-  double change_m_s = 0;
-  for (int i = 0; i < max_sweeps; ++i) {
-    if (i > 0 && accelerated) accelerate();
-    change_m_s = 0;
-    for (ContactManifold* manifold : touching_)
-      change_m_s = std::max(change_m_s, manifold->sweep());
-    if (change_m_s <= converged_m_s) break;
-  }
-  return change_m_s;
-}
-
-// Anderson mixing (1965) with one step of memory. Slow convergence is along one direction, each
-// change a constant part of the last one: velocities and impulses are extrapolated to where the
-// change would have the least kinetic energy. Velocities are linear in the impulses, so the same
-// fraction keeps both consistent. The result is that of the last sweep, without extrapolation.
-void BoxWorld::accelerate() {
-  double energy_j = 0, product_j = 0;
-  for (Body& body : bodies_) {
-    Motion& motion = body.step;
-    if (body.asleep || !(motion.inverse_mass > 0)) continue;
-    const Velocity last = motion.sweep_change;
-    motion.sweep_change = {motion.constrained.linear_m_s - motion.sweep_start.linear_m_s,
-                           motion.constrained.angular_rad_s - motion.sweep_start.angular_rad_s};
-    const double mass_kg = 1 / motion.inverse_mass;
-    const double inertia = motion.rotates ? 1 / motion.inverse_inertia.diagonal().maxCoeff() : 0;
-    const auto& [along, about] = motion.sweep_change;
-    energy_j += mass_kg * along.squaredNorm() + inertia * about.squaredNorm();
-    product_j += mass_kg * along.dot(last.linear_m_s) + inertia * about.dot(last.angular_rad_s);
-  }
-  const double denominator_j = energy_j + last_energy_j_ - 2 * product_j;
-  const bool known = last_energy_j_ > 0 && denominator_j > 0;
-  const double fraction =
-      known ? std::clamp((product_j - energy_j) / denominator_j, 0.0, max_extrapolation) : 0;
-  last_energy_j_ = energy_j;
-  for (Body& body : bodies_)
-    if (!body.asleep) body.step.extrapolate_sweep(fraction);
-  for (ContactManifold* manifold : touching_) manifold->extrapolate_sweep(fraction);
-}
-
 BoxWorld::Event BoxWorld::next_event(double h_s) const {
   Event first_event;
-  const auto consider = [&](std::optional<double> fraction, bool ends_contact) {
+  const auto consider = [&](std::optional<double> fraction, bool changes_force) {
     if (fraction && (1 - *fraction) * h_s > min_remainder_s && *fraction < first_event.fraction)
-      first_event = {*fraction, ends_contact};
+      first_event = {*fraction, changes_force};
   };
   for (const Pair& pair : pairs_) {
     if (pair.manifold.empty() || bodies_[pair.first].asleep) continue;
-    consider(pair.manifold.fraction_before_impact(), false);
+    consider(pair.manifold.fraction_before_impact(), !surface_.is_rigid());
     consider(pair.manifold.fraction_before_sticking(), false);
     const bool with_driven = bodies_[pair.first].driven || bodies_[pair.second].driven;
     if (with_driven && !pair.with_table()) consider(fraction_before_separation(pair, h_s), true);
@@ -324,10 +269,10 @@ std::optional<double> BoxWorld::fraction_before_separation(const Pair& pair, dou
   return *fraction + separated_m / travel_m.norm();
 }
 
-void BoxWorld::move(double h_s, bool ends_contact) {
+void BoxWorld::move(double h_s, bool changes_force) {
   for (Body& body : bodies_) {
     if (body.asleep) continue;
-    if (body.driven) body.force_duration_s = ends_contact ? 0 : h_s;
+    if (body.driven) body.force_duration_s = changes_force ? 0 : h_s;
     if (body.driven && body.step.inverse_mass > 0)
       body.mean_force_n = (body.step.constrained.linear_m_s - body.step.free.linear_m_s) /
                           (body.step.inverse_mass * h_s);

@@ -77,8 +77,9 @@ class BoxWorld {
   };
 
   struct Event {
-    double fraction = 1;        // of the step
-    bool ends_contact = false;  // the clone slides off: its contact force ends
+    double fraction = 1;  // of the step
+    // The contact force on the clone ends, because it slides off, or begins to grow.
+    bool changes_force = false;
   };
 
   double travel_bound_m(const Body& body, double h_s) const;
@@ -87,10 +88,11 @@ class BoxWorld {
   void update_neighbors(double h_s);
   void list_neighbors();
   bool wake_within_reach(double h_s);
+  StepTime time_of(double h_s, const StepOptions& options) const;
   double find_contacts(double h_s, double regular_s);
   void solve_impact(const Driver& driver);
-  void set_motions(double h_s, const StepOptions& options);
-  void solve(double h_s, const StepOptions& options);
+  void set_motions(const StepTime& time, const Driver& driver);
+  void solve(const StepTime& time, const StepOptions& options);
   void iterate();
   double run_sweeps(bool accelerated);
   void clear_impulses();

@@ -18,6 +18,7 @@ constexpr double still_touching_m = 0.03e-3;
 constexpr double same_mass = 1e-9;           // relative difference
 constexpr double no_limit_m_s = 1e100;       // of the approach speed
 constexpr double max_separation_m_s = 0.05;  // at which overlaps are corrected
+constexpr double steady_change = 0.3;        // largest relative change of a load within a step
 
 bool has(unsigned set, int i) {
   return (set >> i & 1) != 0;
@@ -83,7 +84,7 @@ void ContactManifold::set_points(const Contact& contact) {
   lever_arms_ << Points::Zero(), v_m_, -u_m_;
   lever_arms_.col(0).head(n_).setOnes();
   null_vector_.setZero();
-  if (n_ == 4 && surface_.compliance_m_per_n == 0) find_null_vector();
+  if (n_ == 4 && surface_.is_rigid()) find_null_vector();
   if (u == u_) return;
   for (Impulses* turned : {&impulses_, &previous_, &predicted_}) {
     const Points along_u = turned->col(1), along_v = turned->col(2);
@@ -112,10 +113,15 @@ void ContactManifold::set_frame(const Contact& contact) {
   arm_second_m_ = middle_second_m - second_->pose.position_m;
 }
 
-double ContactManifold::begin_step(double regular_s) {
+double ContactManifold::begin_step(double regular_s, double ahead_s) {
   gaps_m_ = updated_gaps_m_.array() + normal_.dot(relative_displacement_m());
+  if (ahead_s > 0)
+    gaps_m_ -= ahead_s * (lever_arms_ *
+                          relative_motion(first_->lead_velocity, second_->lead_velocity).normal);
   at_start_ = relative_motion(first_->velocity, second_->velocity);
   stuck_at_start_ = sticks_;
+  last_loads_n_ = time_.h_s > 0 ? Points(impulses_.col(0) / time_.h_s) : Points(Points::Zero());
+  last_h_s_ = time_.h_s;
   touching_ = 0;
   double approach_m_s = 0;
   const Points speeds = lever_arms_ * at_start_.normal;
@@ -125,7 +131,7 @@ double ContactManifold::begin_step(double regular_s) {
     const double gap_m_s = gaps_m_[i] > flat_m ? gaps_m_[i] / regular_s : 0;
     approach_m_s = std::max(approach_m_s, -speeds[i] - gap_m_s);
   }
-  return surface_.compliance_m_per_n > 0 ? 0 : approach_m_s;
+  return surface_.is_rigid() ? approach_m_s : 0;
 }
 
 void ContactManifold::set_step(const StepTime& time) {
@@ -134,7 +140,7 @@ void ContactManifold::set_step(const StepTime& time) {
   time_ = time;
   sticks_ = false;
   update_response();
-  set_approach_limits();
+  set_approach_limits(Limits::of_touching);
 }
 
 void ContactManifold::update_response() {
@@ -169,11 +175,11 @@ void ContactManifold::compute_response() {
   sliding_mass_kg_.setZero();
 }
 
-// Points in contact close their gaps and correct their overlaps by the end of the lookahead.
-void ContactManifold::set_approach_limits() {
-  const double c = surface_.compliance_m_per_n;
+// Rigid points in contact close their gaps and correct their overlaps by the end of the lookahead.
+void ContactManifold::set_approach_limits(Limits limits) {
   softness_.setZero();
-  if (c == 0 && touching_ == 0b1111 && gaps_m_.cwiseAbs().maxCoeff() < flat_m) {  // the usual case
+  const bool rigid = surface_.is_rigid();
+  if (rigid && touching_ == 0b1111 && gaps_m_.cwiseAbs().maxCoeff() < flat_m) {  // the usual case
     approach_limit_m_s_.setZero();
     return;
   }
@@ -182,14 +188,9 @@ void ContactManifold::set_approach_limits() {
   for (int i = 1; i < n_; ++i) nearest_m = std::min(nearest_m, gaps_m_[i]);
   for (int i = 0; i < n_; ++i) {
     const double gap_m = gaps_m_[i] < nearest_m + flat_m ? nearest_m : gaps_m_[i];
-    if (c > 0) {
-      // gap at the end of the lookahead = -compliance * force - damping time * speed, critically
-      // damped for the effective mass of the point
-      const double damping_s = gap_m < 0 ? 2 * std::sqrt(c / normal_response_(i, i)) : 0;
-      const double over_s = time_.h_s + time_.lookahead_s + damping_s;
-      softness_[i] = c / (time_.h_s * over_s);
-      approach_limit_m_s_[i] = gap_m / over_s;
-    } else if (has(touching_, i)) {
+    if (!rigid && (limits == Limits::of_all || has(touching_, i))) {
+      set_compliant_limit(i, gap_m);
+    } else if (rigid && has(touching_, i)) {
       approach_limit_m_s_[i] = 0;
       if (gap_m > flat_m) approach_limit_m_s_[i] = gap_m / (time_.h_s + time_.lookahead_s);
       if (gap_m < -flat_m)
@@ -199,15 +200,38 @@ void ContactManifold::set_approach_limits() {
   }
 }
 
+// The contact law holds at the end of the lookahead:
+//   compliance * force there = -gap there - damping time * speed,
+// critically damped for the effective mass of the point. This damps stiff contacts within a step,
+// at any length of the step, but leads by the time from the middle of the step: with the force over
+// the step on the left, loads that change slowly would be ahead of the gaps by that time. Where the
+// law at the start of the step confirms the force over the last step, the force there is
+// extrapolated instead, which makes the solution second-order in the step. Elsewhere, as in a
+// collision, it stays first-order: an extrapolated force would pull at points that separate.
+void ContactManifold::set_compliant_limit(int i, double gap_m) {
+  const double c = surface_.compliance_m_per_n;
+  const double damping_s = gap_m < 0 ? 2 * std::sqrt(c / normal_response_(i, i)) : 0;
+  const double over_s = time_.h_s + time_.lookahead_s + damping_s;
+  const double last_m = c * last_loads_n_[i];
+  const double at_start_m = gap_m + over_s * lever_arms_.row(i).dot(at_start_.normal);
+  const bool steady = std::abs(at_start_m + last_m) < steady_change * last_m;
+  const double ahead_s = time_.lookahead_s + time_.h_s / 2;
+  const double growth = steady ? ahead_s / ((time_.h_s + last_h_s_) / 2) : 0;
+  softness_[i] = c * (1 + growth) / (time_.h_s * over_s);
+  approach_limit_m_s_[i] = (gap_m - growth * last_m) / over_s;
+}
+
 void ContactManifold::add_speculative_limits() {
-  if (surface_.compliance_m_per_n > 0) return;
+  if (!surface_.is_rigid()) {
+    set_approach_limits(Limits::of_all);
+    return;
+  }
   for (int i = 0; i < n_; ++i)
     if (!has(touching_, i)) approach_limit_m_s_[i] = gaps_m_[i] / (time_.h_s + time_.lookahead_s);
 }
 
 // The relative acceleration is constant, from the velocity at the start to the solved mean.
 std::optional<double> ContactManifold::fraction_before_meeting() const {
-  if (surface_.compliance_m_per_n > 0) return std::nullopt;
   const Points at_start = lever_arms_ * at_start_.normal;
   const Points mean_m_s =
       lever_arms_ * relative_motion(first_->step.mean, second_->step.mean).normal;

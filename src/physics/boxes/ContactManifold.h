@@ -18,6 +18,7 @@ namespace heft::boxes {
 struct ContactSurface {
   double friction = 0.8;
   double compliance_m_per_n = 0;  ///< of each point; 0: rigid
+  bool is_rigid() const { return compliance_m_per_n == 0; }
   /// Allows methods that save sweeps but amplify rounding; off for a coupled clone.
   bool shortcuts = true;
   /// Bodies whose relative displacement, m or rad, is smaller keep their manifold.
@@ -42,8 +43,9 @@ class ContactManifold {
 
   /// Records gaps and relative velocity at the start of a step.
   /// @param regular_s time in which a gap may close without an impact
+  /// @param ahead_s time by which the bodies are moved ahead now, see Body::look_ahead()
   /// @return the largest approach speed of points in contact, m/s; 0 for compliant contacts
-  double begin_step(double regular_s);
+  double begin_step(double regular_s, double ahead_s);
   /// Prepares the solve for a step of this length.
   void set_step(const StepTime& time);
 
@@ -92,6 +94,9 @@ class ContactManifold {
   using PointRows = Eigen::Matrix<double, 4, 3>;  // three numbers a point
   using Impulses = PointRows;                     // N s: along the normal, u and v
 
+  // Whether points with a gap have a limit: speculative contacts.
+  enum class Limits { of_touching, of_all };
+
   // Relative velocity of the first body, or impulse on it, at the middle of the patch in the frame
   // (normal, u, v).
   struct PatchVector {
@@ -104,7 +109,8 @@ class ContactManifold {
   void set_frame(const Contact& contact);
   void update_response();
   void compute_response();
-  void set_approach_limits();
+  void set_approach_limits(Limits limits);
+  void set_compliant_limit(int i, double gap_m);
   void find_null_vector();
   Eigen::Vector3d relative_displacement_m() const;
 
@@ -162,6 +168,8 @@ class ContactManifold {
       Points::Zero();  // smallest effective mass in the plane; 0: not yet known
   Points approach_limit_m_s_ = Points::Zero();  // of each point
   Points softness_ = Points::Zero();            // m/s per N s
+  Points last_loads_n_ = Points::Zero();        // normal forces over the last step
+  double last_h_s_ = 0;                         // its length
 
   Impulses impulses_ = Impulses::Zero();
   Impulses previous_ = impulses_;   // of the step before
