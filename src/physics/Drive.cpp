@@ -8,6 +8,7 @@
 #include "base/Error.h"
 #include "base/Pose.h"
 #include "base/math/Geometry.h"
+#include "physics/coupling/CouplingLaw.h"
 #include "physics/techniques/Displacement.h"
 
 namespace heft {
@@ -83,6 +84,7 @@ Drive::Drive(std::unique_ptr<DecouplingSimulator> simulator, const Scene& scene,
       input_(input) {
   if (!(rate_hz > 0) || !std::isfinite(rate_hz))
     throw Error(fmt::format("the physics rate is {} Hz, expected more than 0", rate_hz));
+  if (const auto why = instability(scene.coupling, rate_hz)) throw OutsideModel(*why);
   if (!(input.predict_s >= 0) || !std::isfinite(input.predict_s))
     throw Error(fmt::format("the prediction is {} s, expected 0 or more", input.predict_s));
 }

@@ -34,7 +34,8 @@ inline constexpr double longest_gap_s = 0.25 + 1e-6;
 class Drive {
  public:
   /// @param rate_hz lower bound of the physics rate; a picture takes ceil(dt * rate) equal steps
-  /// @throws Error for a rate that is not above 0 or a negative prediction
+  /// @throws Error for a rate that is not above 0, a negative prediction; OutsideModel for an
+  /// instability()
   Drive(std::unique_ptr<DecouplingSimulator> simulator, const Scene& scene, double rate_hz,
         const DriveInput& input = {});
 

@@ -101,6 +101,21 @@ TEST(CouplingLaw, HasTheBareMassWithinAnInstant) {
   }
 }
 
+TEST(CouplingLaw, IsRefusedWhereHardlyDampedAndFasterThanItsSteps) {
+  Coupling coupling;
+  EXPECT_FALSE(instability(coupling, 1));
+  coupling.stiffness_n_per_m = 1e5;  // 3162 rad/s with 10 g
+  coupling.damping_ratio = 0.05;
+  EXPECT_TRUE(instability(coupling, 60));
+  EXPECT_FALSE(instability(coupling, 264));
+  coupling.damping_ratio = 0.1;
+  EXPECT_FALSE(instability(coupling, 60));
+  coupling.damping_ratio = 0;
+  EXPECT_TRUE(instability(coupling, 263));
+  coupling.decoupled = false;
+  EXPECT_FALSE(instability(coupling, 60));
+}
+
 RC_GTEST_PROP(CouplingLaw, IsStableForAnyStiffness, ()) {
   const CouplingAxis axis{std::pow(10, *rc::gen::inRange(-7, 1)),
                           std::pow(10, *rc::gen::inRange(-3, 10)),

@@ -1,10 +1,30 @@
 #include "physics/coupling/CouplingLaw.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "base/Pose.h"
 
 namespace heft {
+
+namespace {
+constexpr double stable_damping_ratio = 0.1, stable_phase_rad = 12;
+}
+
+std::optional<std::string> instability(const Coupling& coupling, double rate_hz) {
+  if (!coupling.decoupled || coupling.damping_ratio >= stable_damping_ratio) return std::nullopt;
+  const double omega_rad_s = std::sqrt(coupling.stiffness_n_per_m / coupling.clone_mass_kg);
+  const double least_hz = std::ceil(omega_rad_s / stable_phase_rad);
+  if (rate_hz >= least_hz) return std::nullopt;
+  return fmt::format(
+      "damping_ratio is {:g}: the clone oscillates {:.3g} times a second and loses so little "
+      "energy "
+      "that contacts are unstable at {:g} steps a second; expected a damping_ratio of {:g} or "
+      "more, "
+      "or at least {:g} steps a second",
+      coupling.damping_ratio, omega_rad_s / (2 * M_PI), rate_hz, stable_damping_ratio, least_hz);
+}
 
 CouplingLaw::Sampled CouplingLaw::sampled(const CouplingAxis& axis, double h_s) {
   const double omega = std::sqrt(axis.stiffness / axis.mass), z = axis.damping_ratio;

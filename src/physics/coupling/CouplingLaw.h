@@ -15,10 +15,17 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
 
 #include "physics/scene/Scene.h"
 
 namespace heft {
+
+/// Why contacts of this clone are unstable at a physics rate, and what to change; none: they are
+/// not. A clone that oscillates often in a step and loses little of its energy gains energy from
+/// contacts, which are resolved at most 32 times a step (results/physics/stability.svg).
+std::optional<std::string> instability(const Coupling& coupling, double rate_hz);
 
 enum class CouplingScheme { implicit_euler, exact };
 
