@@ -15,8 +15,9 @@ extern "C" const char* __lsan_default_suppressions() {
 
 // OpenCV loads GDAL for its picture formats; GDAL takes two locks of its own in both orders when it
 // starts. It films with FFmpeg, and Pango looks for fonts in a thread of its own: code that is not
-// instrumented, whose locks nobody sees.
+// instrumented, whose locks nobody sees. Mesa draws in threads of its own.
 extern "C" const char* __tsan_default_suppressions();
 extern "C" const char* __tsan_default_suppressions() {
-  return "deadlock:libgdal\nrace:libavutil\nrace:libavcodec\nrace:libfontconfig\nrace:libglib\n";
+  return "deadlock:libgdal\nrace:libavutil\nrace:libavcodec\nrace:libfontconfig\nrace:libglib\n"
+         "race:swrast_dri\n";
 }

@@ -266,22 +266,23 @@ void study_input(const StudyOptions& options) {
       "extrapolate: on along the last two. " +
       provenance(options);
   draw(options, "input",
-       gnuplot_header({"input.svg", width_px, 640,
+       gnuplot_header({"input.svg", width_px, 1000,
                        "From camera poses to a target: what each way of filling the gaps costs",
                        caption}) +
            legend() + dots_of(in_air, "air") + dots_of(at_picture, "picture") +
            dots_of(at_present, "present") + dots_of(kicks, "kick") +
-           fmt::format("set logscale y\nset format y '%g'\nset xrange [-0.6:11.6]\n"
-                       "set xtics rotate by 45 right font ',10' ({})\n"
-                       "set arrow 1 from 3.5, graph 0 to 3.5, graph 1 nohead linecolor '#cccccc'\n"
-                       "set arrow 2 from 7.5, graph 0 to 7.5, graph 1 nohead linecolor '#cccccc'\n"
-                       "unset key\n"
-                       "set multiplot layout 1,4 margins screen 0.065, screen 0.985, screen "
-                       "caption_top + 120*pixel, screen 1-95*pixel spacing screen 0.07\n"
-                       "set ylabel 'error of the clone (mm RMS)'\nset yrange [0.001:20]\n",
-                       tics) +
-           panel("air", "free air, over video: at the picture''s time") +
-           "unset label\nset yrange [0.005:20]\n" + panel("picture", "a cube, over video") +
+           fmt::format(
+               "set logscale y\nset format y '%g'\nset xrange [-0.6:11.6]\n"
+               "set xtics rotate by 45 right font ',11' ({})\n"
+               "set arrow 1 from 3.5, graph 0 to 3.5, graph 1 nohead linecolor '#cccccc'\n"
+               "set arrow 2 from 7.5, graph 0 to 7.5, graph 1 nohead linecolor '#cccccc'\n"
+               "unset key\n"
+               "set multiplot layout 2,2 margins screen 0.065, screen 0.985, screen "
+               "caption_top + 110*pixel, screen 1-95*pixel spacing screen 0.07, screen 170*pixel\n"
+               "set ylabel 'error of the clone (mm RMS)'\nset yrange [0.0005:20]\n",
+               tics) +
+           panel("air", "free air, over video: at the picture''s time") + "unset label\n" +
+           panel("picture", "a cube, over video") +
            panel("present", "a cube, see-through: at the present") +
            "set ylabel 'fastest cube (m/s)'\nset yrange [0.1:10]\n" +
            panel("kick", "C1: how a cube is kicked (hand: 0.16 m/s)") + "unset multiplot\n");

@@ -30,8 +30,8 @@ struct Series {
 
 const std::vector<Series>& all_series() {
   static const std::vector<Series> series{
-      {"boxes", spring_technique, "C2, the paper's spring: boxes (bullet-lx the same)", 720, 106},
       {"bullet-lx", spring_technique, "", 0, 0},
+      {"boxes", spring_technique, "C2, the paper's spring: boxes (bullet-lx the same)", 720, 106},
       {"bullet-spring2", spring_technique, "bullet-spring2", 30, 104},
       {"boxes", "gain", "gain .95 at 15 g, .6 at 200 g, .2 at 800 g", 830, 74},
       {"boxes", "speed_limit", "speed limit .5, .08, .05 m/s", 830, 44},
@@ -128,15 +128,15 @@ void study_lag(const StudyOptions& options) {
       "Broad line: min(stroke, \u00b5 M g / k), 0.157 mm a gram, until the cube does not move at "
       "all. {}",
       rate_hz, provenance(options));
-  draw(options, "lag_vs_mass",
-       gnuplot_header({"lag_vs_mass.svg", 900, 560,
-                       "What people perceive: displacement against mass, technique by technique",
-                       caption}) +
-           data + labels +
-           "unset key\nset tmargin at screen 1-56*pixel\nset bmargin at screen caption_top + "
-           "72*pixel\nset xrange [0:1540]\nset yrange [-3:125]\nset xlabel 'mass of the cube (g)'\n"
-           "set ylabel 'clone behind the hand at the end (mm)'\n" +
-           plot + "\n");
+  draw(
+      options, "lag_vs_mass",
+      gnuplot_header({"lag_vs_mass.svg", 900, 560,
+                      "How far the clone is behind the hand after a push, against mass", caption}) +
+          data + labels +
+          "unset key\nset tmargin at screen 1-56*pixel\nset bmargin at screen caption_top + "
+          "72*pixel\nset xrange [0:1540]\nset yrange [-3:125]\nset xlabel 'mass of the cube (g)'\n"
+          "set ylabel 'clone behind the hand at the end (mm)'\n" +
+          plot + "\n");
 }
 
 }  // namespace heft

@@ -71,6 +71,10 @@ BenchScene stability_scene(Varied varied, double value) {
   } else if (varied == Varied::torsional_stiffness) {
     coupling.torsional_stiffness_nm_per_rad = value;
     path.side_m = 0.008;
+  } else if (varied == Varied::damping) {
+    coupling.damping_ratio = value;
+    coupling.stiffness_n_per_m = 1e5;
+    cube.mass_kg *= std::sqrt(1e5 / 50);
   } else if (varied == Varied::cube_mass) {
     cube.mass_kg = value;
   }
@@ -112,6 +116,10 @@ std::vector<double> values_of(Varied varied, bool quick) {
   if (varied == Varied::torsional_stiffness) {
     if (quick) return {150};
     return {1.5e-4, 1.5e-3, 1.5e-2, 0.15, 1.5, 15, 150, 1.5e3, 1.5e4, 1.5e5};
+  }
+  if (varied == Varied::damping) {
+    if (quick) return {1};
+    return {0, 0.01, 0.03, 0.06, 0.12, 0.25, 0.5, 1, 2, 4};
   }
   if (quick) return {0.15};
   return {0.0015, 0.015, 0.05, 0.15, 0.5, 1.5, 15};

@@ -1,5 +1,5 @@
 // Map of failures: every method at every rate, over decades of spring stiffness, torsional
-// stiffness, cube mass, and mass of a second cube that is pushed along.
+// stiffness, damping, cube mass, and mass of a second cube that is pushed along.
 #pragma once
 
 #include <array>
@@ -14,15 +14,17 @@
 namespace heft {
 
 /// The varied parameter; the others are the paper's.
-enum class Varied { stiffness, torsional_stiffness, cube_mass, second_cube_mass };
+enum class Varied { stiffness, torsional_stiffness, damping, cube_mass, second_cube_mass };
 
 inline constexpr std::array all_varied{Varied::stiffness, Varied::torsional_stiffness,
-                                       Varied::cube_mass, Varied::second_cube_mass};
+                                       Varied::damping, Varied::cube_mass,
+                                       Varied::second_cube_mass};
 
 template <>
 struct EnumNames<Varied> {
-  static constexpr std::array<std::string_view, 4> names{
-      "stiffness_n_per_m", "torsional_stiffness_nm_per_rad", "cube_mass_kg", "second_cube_mass_kg"};
+  static constexpr std::array<std::string_view, 5> names{
+      "stiffness_n_per_m", "torsional_stiffness_nm_per_rad", "damping_ratio", "cube_mass_kg",
+      "second_cube_mass_kg"};
 };
 
 /// From mild to severe.

@@ -10,7 +10,7 @@
 namespace heft {
 
 namespace {
-constexpr int panel_height_px = 128, width_px = 1400;
+constexpr int panel_height_px = 128, width_px = 1640;
 
 struct Look {
   const char* color;
@@ -43,10 +43,12 @@ const char* axis_of(Varied varied) {
       return "spring (N/m)";
     case Varied::torsional_stiffness:
       return "torsional spring (N m/rad)";
+    case Varied::damping:
+      return "damping ratio, 100 000 N/m";
     case Varied::cube_mass:
       return "cube (kg)";
     case Varied::second_cube_mass:
-      return "second cube, beside the first (kg)";
+      return "second cube beside it (kg)";
   }
   return "";
 }
@@ -136,16 +138,16 @@ void draw_stability(const StudyOptions& options, const std::vector<StabilityCell
       "A cube of 100 g pushed by 10 cm at 0.1 m/s, then 1 s of rest, with the paper's coupling but "
       "for what is varied (with the spring the cube's mass goes as its root; the torsional spring "
       "is loaded by pushing 8 mm off center; two cubes, 5 mm out of line, are swept by the long "
-      "side). A cell shows the gravest fault. " +
+      "side). Grey: refused. A cell shows the gravest fault. " +
       provenance(options);
   std::string script =
       gnuplot_header({"stability.svg", width_px, height_px, "Where methods fail", caption}) +
       legend() +
       fmt::format(
           "unset grid\nunset key\nset tics scale 0.3\n"
-          "set multiplot layout {},4 margins screen 0.215, screen 0.985, screen caption_top + "
+          "set multiplot layout {},{} margins screen 0.185, screen 0.985, screen caption_top + "
           "62*pixel, screen 1-110*pixel spacing screen 0.055, screen 18*pixel\n",
-          names.size());
+          names.size(), all_varied.size());
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (Varied varied : all_varied) {
       const bool left = varied == all_varied.front();

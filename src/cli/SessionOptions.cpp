@@ -168,8 +168,15 @@ void print_simulator(const ResolvedConfig& config) {
   for (const std::string& caution : cautions(*config->protocol)) say("heft: {}\n", caution);
 }
 
-// Simulators of a single stroke; settings that over video make the clone visibly displaced from the
-// effector, which participants interpret as mass.
+bool has_compliant_contacts(const Protocol& protocol) {
+  return protocol.contact_compliance_m_per_n > 0 ||
+         std::ranges::any_of(protocol.techniques, [](const Technique& technique) {
+           return technique.contact_compliance_m_per_n.value_or(0) > 0;
+         });
+}
+
+// Simulators of a single stroke or with rigid contacts only; settings that over video make the
+// clone visibly displaced from the effector, which participants interpret as mass.
 std::vector<std::string> cautions(const Protocol& protocol) {
   constexpr double stroke_m_s = 0.3;
   const auto& [mode, predict_s] = protocol.simulator.input;
@@ -179,6 +186,10 @@ std::vector<std::string> cautions(const Protocol& protocol) {
     found.push_back(fmt::format(
         "[physics] simulator = \"{}\" models one straight push: sessions refuse it if a hand "
         "does more: use \"boxes\" or \"auto\"",
+        simulator));
+  if (has_compliant_contacts(protocol) && !models_compliance(simulator))
+    found.push_back(fmt::format(
+        "contact_compliance_m_per_n has no effect: the contacts of \"{}\" are rigid; use \"boxes\"",
         simulator));
   if (mode == InputMode::hold || mode == InputMode::extrapolate)
     found.push_back(

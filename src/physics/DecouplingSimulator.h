@@ -53,11 +53,22 @@ class DecouplingSimulator {
 
 using MakeSimulator = std::unique_ptr<DecouplingSimulator> (*)();
 
+/// What a simulator models without a known failure. Tests run each through the scenes with closed
+/// forms of these kinds.
+struct Fitness {
+  bool straight = false;  ///< a straight push of one cube
+  bool coupled = false;   ///< the same by a clone that stays on the effector
+  bool turning = false;   ///< a torsional spring, hands that turn, cubes that turn
+  bool several_cubes = false;
+  bool compliant = false;  ///< Scene::contact_compliance_m_per_n
+};
+
 /// A row of the table of simulators.
 struct SimulatorEntry {
   std::string_view name;
   std::string_view summary;
   MakeSimulator make;  ///< null: only heft-bench is built with it
+  Fitness fit_for;
   /// Known failures, in one line; printed when the simulator is chosen. Empty: none.
   std::string_view warning = {};
   /// Whether it models every hand movement; others throw OutsideModel.

@@ -30,6 +30,7 @@ void read_physics(TableReader& reader, Protocol& protocol) {
   reader.in_table("physics", [&](TableReader& table) {
     table.read("friction", protocol.friction, zero_or_more);
     table.read("friction_is", protocol.friction_is);
+    table.read("contact_compliance_m_per_n", protocol.contact_compliance_m_per_n, compliances);
     table.read("gravity_m_s2", protocol.gravity_m_s2, zero_or_more);
     SimulatorChoice& simulator = protocol.simulator;
     simulator.name = table.read_name("simulator", names_in(simulators())).value_or(simulator.name);
@@ -188,9 +189,11 @@ Protocol parse_protocol(const std::string& text, const std::string& file,
   reader.read("void_after_s", protocol.void_after_s, above_zero);
   reader.read("require_contact", protocol.require_contact);
   read_effector(reader, protocol.effector_size_m);
-  reader.in_table("coupling", [&](auto& table) { protocol.coupling = read_coupling(table); });
-  protocol.techniques = read_techniques(reader, protocol.coupling);
   read_physics(reader, protocol);
+  const double rate_hz = protocol.simulator.rate_hz;
+  reader.in_table("coupling",
+                  [&](auto& table) { protocol.coupling = read_coupling(table, {}, rate_hz); });
+  protocol.techniques = read_techniques(reader, protocol.coupling, rate_hz);
   read_onset(reader, protocol.onset);
   read_screens(reader, protocol.screens);
   read_analysis(reader, protocol.analysis);
@@ -235,6 +238,7 @@ Scene scene_of(const Protocol& protocol, const std::string& technique,
   scene.friction = protocol.friction_is == FrictionIs::per_body
                        ? protocol.friction * protocol.friction
                        : protocol.friction;
+  scene.contact_compliance_m_per_n = protocol.contact_compliance_m_per_n;
   scene.effector_size_m = protocol.effector_size_m;
   technique_named(technique, protocol.techniques, protocol.coupling).apply_to(scene);
   const double size_m = protocol.layout.cube_size_m;

@@ -83,6 +83,7 @@ struct Protocol : SessionPlan {
   std::vector<Technique> techniques;  ///< declared ones; C1 and C2 need no declaration
   double friction = 0.8;
   FrictionIs friction_is = FrictionIs::between_surfaces;
+  double contact_compliance_m_per_n = 0;  ///< see Scene
   double gravity_m_s2 = 9.81;
   SimulatorChoice simulator;
   Layout layout;

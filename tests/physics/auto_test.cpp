@@ -14,12 +14,6 @@ std::vector<std::string> names_of(const std::vector<SimulatorPick>& ladder) {
   return names;
 }
 
-const KnownError& known_of(const SimulatorPick& pick) {
-  return *std::ranges::find_if(known_errors(), [&](const KnownError& known) {
-    return known.simulator == pick.simulator && known.rate_hz == pick.rate_hz;
-  });
-}
-
 Scene with_tolerance(const Tolerance& tolerance) {
   Scene scene = one_cube(0.2);
   scene.tolerance = tolerance;
@@ -32,19 +26,24 @@ TEST(Auto, TriesAStraightPushBeforeTheGeneralModel) {
   for (const SimulatorPick& pick : ladder) EXPECT_FALSE(pick.why.empty());
 }
 
-TEST(Auto, StaysWithinTheToleranceAsFarAsTheTableKnows) {
-  const SimulatorPick pick = resolve_auto(one_cube(0.2), 15);
-  const Tolerance asked, known = known_of(pick).within;
-  EXPECT_LE(known.clone_rms_m, asked.clone_rms_m);
-  EXPECT_LE(known.lag_g, asked.lag_g);
-  EXPECT_LE(known.cubes_rms_m, asked.cubes_rms_m);
-  EXPECT_LE(known.turn_rms_rad, asked.turn_rms_rad);
-  EXPECT_EQ(pick.why.find("NOT within"), std::string::npos);
+TEST(Auto, PromisesTheToleranceForPushesThroughTheMiddle) {
+  const Tolerance asked;
+  for (const KnownError& known : known_errors()) {
+    EXPECT_LE(known.through_middle.clone_rms_m, asked.clone_rms_m) << known.simulator;
+    EXPECT_LE(known.through_middle.lag_g, asked.lag_g) << known.simulator;
+    EXPECT_LE(known.through_middle.cubes_rms_m, asked.cubes_rms_m) << known.simulator;
+    EXPECT_LE(known.through_middle.turn_rms_rad, asked.turn_rms_rad) << known.simulator;
+  }
+  EXPECT_EQ(resolve_auto(one_cube(0.2), 15).why.find("NOT within"), std::string::npos);
 }
 
-TEST(Auto, KeepsTheToleranceOfCubesToo) {
-  const double usual_hz = resolve_auto(one_cube(0.2), 15).rate_hz;
-  EXPECT_GT(resolve_auto(with_tolerance({.cubes_rms_m = 1e-9}), 15).rate_hz, usual_hz);
+TEST(Auto, NamesWhatItPromisesNothingFor) {
+  using testing::HasSubstr;
+  Scene scene = one_cube(0.2);
+  EXPECT_THAT(resolve_auto(scene, 15).why, HasSubstr("rigid contacts have no unique result"));
+  scene.contact_compliance_m_per_n = 1e-4;
+  EXPECT_THAT(resolve_auto(scene, 15).why,
+              AllOf(HasSubstr("beside the middle, within"), Not(HasSubstr("no unique result"))));
 }
 
 TEST(Auto, TakesAtLeastAsManyStepsAsThereArePoses) {
@@ -53,9 +52,8 @@ TEST(Auto, TakesAtLeastAsManyStepsAsThereArePoses) {
       EXPECT_GE(pick.rate_hz, rate_hz);
 }
 
-TEST(Auto, TakesMoreStepsForATighterToleranceAndForAFasterSpring) {
+TEST(Auto, TakesMoreStepsForAFasterSpring) {
   const double usual_hz = resolve_auto(one_cube(0.2), 15).rate_hz;
-  EXPECT_LT(resolve_auto(with_tolerance({1e-3, 5, 0.1, 0.1}), 15).rate_hz, usual_hz);
   Scene fast = one_cube(0.2);
   fast.coupling.stiffness_n_per_m *= 16;
   EXPECT_NEAR(resolve_auto(fast, 15).rate_hz, 4 * usual_hz, 1);

@@ -216,6 +216,16 @@ TEST(Scene, HasTheTrialsCubesInKilograms) {
   EXPECT_DOUBLE_EQ(scene.cubes[0].position_m.z(), protocol.layout.cube_size_m / 2);
 }
 
+TEST(Scene, HasTheProtocolsContactsUnlessATechniqueHasItsOwn) {
+  const Protocol protocol = parse_protocol(
+      "title = \"t\"\n[physics]\ncontact_compliance_m_per_n = 0.0001\n"
+      "[[technique]]\nname = \"rigid\"\nkind = \"spring\"\ncontact_compliance_m_per_n = 0\n"
+      "[[block]]\nkind = \"demonstration\"\nname = \"demo\"\nduration_s = 20\n",
+      "p.toml");
+  EXPECT_EQ(scene_of(protocol, "C1", {}).contact_compliance_m_per_n, 1e-4);
+  EXPECT_EQ(scene_of(protocol, "rigid", {}).contact_compliance_m_per_n, 0);
+}
+
 TEST(Scene, MultipliesFrictionGivenPerBody) {
   Protocol protocol;
   EXPECT_DOUBLE_EQ(scene_of(protocol, "C2", {}).friction, 0.8);

@@ -138,6 +138,7 @@ BenchScene random_scene(Setting setting, std::uint64_t seed, int n) {
   const MassCurve limits_m_s({{0.015, 0.5}, {0.2, 0.15}, {0.8, 0.05}});
   if (setting == Setting::gain) Technique{"", Gain{gains}}.apply_to(scene.scene);
   if (setting == Setting::speed_limit) Technique{"", SpeedLimit{limits_m_s}}.apply_to(scene.scene);
+  if (setting == Setting::coupled) scene.scene.coupling.decoupled = false;
   return scene;
 }
 

@@ -64,14 +64,15 @@ enum class Setting {
   tower,
   thrown,
   gain,
-  speed_limit
+  speed_limit,
+  coupled
 };
 
 template <>
 struct EnumNames<Setting> {
-  static constexpr std::array<std::string_view, 12> names{
-      "straight", "one",   "aside", "turning", "pair", "staggered",
-      "row",      "stack", "tower", "thrown",  "gain", "speed_limit"};
+  static constexpr std::array<std::string_view, 13> names{
+      "straight", "one",   "aside",  "turning", "pair",        "staggered", "row",
+      "stack",    "tower", "thrown", "gain",    "speed_limit", "coupled"};
 };
 
 /// Whether the rigid solution is unique. It is not for a cube on four corners that rotates or
@@ -79,6 +80,12 @@ struct EnumNames<Setting> {
 constexpr bool has_one_answer(Setting setting) {
   return setting != Setting::aside && setting != Setting::turning && setting != Setting::stack &&
          setting != Setting::tower;
+}
+
+/// Whether the hand turns by up to 0.6 rad or pushes up to 30 mm beside the middle of a cube. In
+/// all other settings it sways, trembles and pushes within 4 mm of the middle.
+constexpr bool pushes_beside(Setting setting) {
+  return setting == Setting::aside || setting == Setting::turning;
 }
 
 /// Poses a second of its path.

@@ -27,6 +27,12 @@ struct LawText {
   }
 };
 
+std::string contacts_text(double compliance_m_per_n) {
+  return compliance_m_per_n == 0
+             ? "rigid"
+             : fmt::format("yield {:g} mm per newton at each point", 1e3 * compliance_m_per_n);
+}
+
 // Collects the choices of one protocol; of blocks too, which may differ in theirs.
 class Collector {
  public:
@@ -38,11 +44,16 @@ class Collector {
     add("start distance", fmt::format("{:g} mm", 1e3 * protocol.layout.start_distance_m));
     add("cubes that leave their area", std::string(name_of(protocol.layout.out_of_area)));
     add("friction", fmt::format("{:g}, {}", protocol.friction, name_of(protocol.friction_is)));
+    add("contacts", contacts_text(protocol.contact_compliance_m_per_n));
     add("effector between pictures", input_text(protocol.simulator.input));
     add("answers need contact with every cube", protocol.require_contact ? "yes" : "no");
     add("practice and feedback", "none");
-    for (const Technique& technique : protocol.techniques)
-      add("technique " + technique.name, std::visit(LawText{}, technique.law));
+    for (const Technique& technique : protocol.techniques) {
+      std::string text = std::visit(LawText{}, technique.law);
+      if (const auto compliance = technique.contact_compliance_m_per_n)
+        text += ", contacts " + contacts_text(*compliance);
+      add("technique " + technique.name, text);
+    }
     for (const Block& block : protocol.blocks) std::visit(*this, block);
   }
 

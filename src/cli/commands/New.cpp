@@ -92,7 +92,7 @@ const std::vector<Kind>& kinds() {
         {"simulator.cpp.in", "src/physics/@name@/@Name@Simulator.cpp"},
         {"simulator_test.cpp.in", "tests/physics/@name@_test.cpp"}},
        {{"src/physics/DecouplingSimulator.cpp", "std::to_array<SimulatorEntry>({", "\n});",
-         "\n    {\"@name@\", \"TODO its method\", make_@name@},",
+         "\n    {\"@name@\", \"TODO its method\", make_@name@, {.straight = true}},",
          "physics/@name@/@Name@Simulator.h"}},
        "@Name@Simulator.PushesACubeAlong"}};
   return all;

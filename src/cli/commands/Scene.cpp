@@ -76,14 +76,18 @@ void check(const SceneOptions& options) {
   throw Error(fmt::format("--rate {}: expected 4 to 1000000 Hz", options.rate_hz), ExitCode::usage);
 }
 
-// Calls `take` with a row every 1 / rate seconds.
+// Calls `take` with a row every 1 / rate seconds. The drive gets every row of the trajectory.
 template <typename Take>
 void run(Drive& drive, const Trajectory& trajectory, double rate_hz, const Take& take) {
   const double start_s = trajectory.start_s();
   const auto last = static_cast<long>(std::floor((trajectory.end_s() - start_s) * rate_hz + 1e-6));
+  const double rounding_s = 1e-6 / rate_hz;
+  auto next = trajectory.rows().begin();
   for (long n = 0; n <= last; ++n) {
     const double t_s = start_s + static_cast<double>(n) / rate_hz;
+    for (; next->t_s < t_s - rounding_s; ++next) drive.advance(sample_of(next->t_s, next->pose));
     const WorldState& state = drive.advance(sample_of(t_s, trajectory.at(t_s)));
+    if (next->t_s < t_s + rounding_s && std::next(next) != trajectory.rows().end()) ++next;
     if (!is_finite(state))
       throw Error(fmt::format(
           "at {:.3f} s a pose is not a number: values of the scene or the path are far outside "
@@ -129,7 +133,7 @@ void run_named(const SceneOptions& options, const Scene& scene, const Trajectory
   warn_of_simulator(options.simulator);
   if (options.explain)
     say("heft: {} at {:g} Hz, as requested: {}\n", entry.name, options.rate_hz, entry.summary);
-  if (scene.contact_compliance_m_per_n > 0 && !models_contacts(entry.name, scene))
+  if (scene.contact_compliance_m_per_n > 0 && !models_compliance(entry.name))
     say("heft: {}'s contacts are rigid: contact_compliance_m_per_n has no effect\n", entry.name);
   long n_rows = 0;
   try {

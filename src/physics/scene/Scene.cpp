@@ -13,6 +13,7 @@ namespace heft {
 void Technique::apply_to(Scene& scene) const {
   scene.displacement.reset();
   scene.coupling.decoupled = false;
+  if (contact_compliance_m_per_n) scene.contact_compliance_m_per_n = *contact_compliance_m_per_n;
   if (const auto* coupling = std::get_if<Coupling>(&law)) scene.coupling = *coupling;
   if (const auto* displacement = std::get_if<Displacement>(&law))
     scene.displacement = *displacement;

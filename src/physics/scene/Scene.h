@@ -30,6 +30,8 @@ struct Coupling {
 struct Technique {
   std::string name;
   std::variant<Coupling, Displacement> law;
+  /// As Scene::contact_compliance_m_per_n, which it replaces; none: the scene keeps its own.
+  std::optional<double> contact_compliance_m_per_n = {};
 
   void apply_to(Scene& scene) const;
 };
@@ -58,8 +60,8 @@ struct Scene {
   double gravity_m_s2 = 9.81;
   double friction = 0.8;  ///< Coulomb coefficient between any two surfaces
   /// Deflection of a contact point per load; 0: rigid. The load of a rigid box is statically
-  /// indeterminate at its corners, so simulators differ where a cube is pushed off its center; with
-  /// compliance they agree. Modeled by `boxes` only.
+  /// indeterminate at its corners, so that a push beside a cube's middle, or by an effector that
+  /// turns, has no unique result; with compliance it has. Modeled by `boxes` only.
   double contact_compliance_m_per_n = 0;
   Eigen::Vector3d effector_size_m{0.09, 0.04, 0.04};
   Coupling coupling;

@@ -1,6 +1,7 @@
 // Readers of the tables of a protocol, some common to scene and procedure files, and --set.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -19,14 +20,20 @@ namespace heft {
 /// Reads and closes the table [effector], if it exists.
 void read_effector(TableReader& reader, Eigen::Vector3d& size_m);
 
+inline constexpr Range compliances{0, 0.01};  ///< of contacts, m/N
+inline constexpr double any_rate_hz = std::numeric_limits<double>::infinity();
+
 /// Reads the coupling's numbers; the caller closes the table. Missing keys keep the given values,
 /// by default the paper's (section 4.2, Parameters).
-Coupling read_coupling(TableReader& table, Coupling coupling = {});
+/// @param rate_hz of the physics, at which the coupling must be stable
+Coupling read_coupling(TableReader& table, Coupling coupling = {}, double rate_hz = any_rate_hz);
 
 /// Reads the [[technique]]s of protocols and scenes; those of base/SimulationChoices.h need no
 /// declaration.
 /// @param defaults for a spring's missing keys: the [coupling] table
-std::vector<Technique> read_techniques(TableReader& reader, const Coupling& defaults);
+/// @param rate_hz as for read_coupling()
+std::vector<Technique> read_techniques(TableReader& reader, const Coupling& defaults,
+                                       double rate_hz = any_rate_hz);
 
 /// The names of all techniques, declared or predefined.
 class TechniqueNames {

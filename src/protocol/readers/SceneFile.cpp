@@ -106,7 +106,7 @@ Scene parse_scene(const std::string& text, const std::string& file) {
   Scene scene;
   reader.read("friction", scene.friction, zero_or_more);
   reader.read("gravity_m_s2", scene.gravity_m_s2, zero_or_more);
-  reader.read("contact_compliance_m_per_n", scene.contact_compliance_m_per_n, zero_or_more);
+  reader.read("contact_compliance_m_per_n", scene.contact_compliance_m_per_n, compliances);
   read_effector(reader, scene.effector_size_m);
   read_scene_technique(reader, scene);
   scene.clone_offset = read_clone_offset(reader);

@@ -5,6 +5,7 @@
 
 #include "base/SimulationChoices.h"
 #include "base/files/Printable.h"
+#include "physics/coupling/CouplingLaw.h"
 #include "protocol/readers/ProtocolTables.h"
 
 namespace heft {
@@ -13,11 +14,14 @@ void read_effector(TableReader& reader, Eigen::Vector3d& size_m) {
   reader.in_table("effector", [&](auto& table) { table.read("size_m", size_m, size_on_earth); });
 }
 
-Coupling read_coupling(TableReader& table, Coupling coupling) {
+Coupling read_coupling(TableReader& table, Coupling coupling, double rate_hz) {
   table.read("stiffness_n_per_m", coupling.stiffness_n_per_m, above_zero);
   table.read("torsional_stiffness_nm_per_rad", coupling.torsional_stiffness_nm_per_rad, above_zero);
   table.read("clone_mass_kg", coupling.clone_mass_kg, above_zero);
   table.read("damping_ratio", coupling.damping_ratio, zero_or_more);
+  const auto why = instability(coupling, rate_hz);
+  if (why && table.good({"damping_ratio", "stiffness_n_per_m", "clone_mass_kg"}))
+    table.mistake("damping_ratio", *why);
   return coupling;
 }
 
@@ -38,16 +42,17 @@ void TableReader::read(std::string_view key, MassCurve& field, const Range& valu
 namespace {
 constexpr std::string_view spring_kind = "spring", coupled_kind = "coupled";
 
-Technique read_technique(TableReader& table, const Coupling& defaults) {
+Technique read_technique(TableReader& table, const Coupling& defaults, double rate_hz) {
   std::vector<std::string_view> kinds{spring_kind, coupled_kind};
   kinds.insert(kinds.end(), Displacements::names.begin(), Displacements::names.end());
   Technique technique;
   table.require({"name"});
   table.read("name", technique.name);
+  table.read("contact_compliance_m_per_n", technique.contact_compliance_m_per_n, compliances);
   const auto kind = table.read_nearest_name("kind", kinds);
   if (!kind) return technique;  // its other keys depend on it
   if (*kind == spring_kind) {
-    technique.law = read_coupling(table, defaults);
+    technique.law = read_coupling(table, defaults, rate_hz);
   } else if (*kind == coupled_kind) {
     Coupling coupling = defaults;
     coupling.decoupled = false;
@@ -62,11 +67,12 @@ Technique read_technique(TableReader& table, const Coupling& defaults) {
 }
 }  // namespace
 
-std::vector<Technique> read_techniques(TableReader& reader, const Coupling& defaults) {
+std::vector<Technique> read_techniques(TableReader& reader, const Coupling& defaults,
+                                       double rate_hz) {
   std::vector<Technique> techniques;
   UniqueNames names("technique");
   for (TableReader& table : reader.tables("technique")) {
-    techniques.push_back(read_technique(table, defaults));
+    techniques.push_back(read_technique(table, defaults, rate_hz));
     names.check(table, techniques.back().name);
   }
   return techniques;
