@@ -4,6 +4,7 @@
 
 #include "base/Clock.h"
 #include "tracking/camera/RollingShutter.h"
+#include "tracking/pose/OwnTags.h"
 
 namespace heft {
 
@@ -70,16 +71,27 @@ BodyFinder::BodyFinder(const Intrinsics& camera, const MarkerBody& body,
     : camera_(camera), body_(body), settings_(settings), how_(how), patterns_(patterns_of(body)) {}
 
 std::optional<BodyFit> BodyFinder::find(const Image& gray, const std::vector<DetectedTag>& detected,
-                                        const std::optional<Pose>& expected, const BiasPrior& prior,
-                                        TrackerTimes& times) {
-  const BiasPrior bias = prior_for(settings_, prior);
+                                        const Known& known, TrackerTimes& times) {
+  const BiasPrior bias = prior_for(settings_, known.bias);
   std::vector<bool> done(body_.tags.size(), false);
-  std::vector<TagObservation>& tags = last_tags_;
   tone_ = {};
-  tags = timed(times.refine_s, [&] { return measure_detected(gray, detected, done); });
-  const auto fit = timed(times.pose_s, [&] { return solve_body(tags, expected, bias); });
+  const auto [clear, rough] =
+      timed(times.refine_s, [&] { return measure_detected(gray, detected, done); });
+  n_foreign_ = 0;
+  auto fit = timed(times.pose_s, [&] { return fit_own(clear, known, bias); });
+  // Tags whose edges cannot be measured (a finger on them, no white margin) give a rough pose.
+  if (!fit) fit = timed(times.pose_s, [&] { return fit_own(rough, known, bias); });
   if (!fit || !settings_.refine_edges) return fit;
   return with_others(gray, *fit, done, bias, times);
+}
+
+std::optional<BodyFit> BodyFinder::fit_own(const std::vector<TagObservation>& tags,
+                                           const Known& known, const BiasPrior& bias) {
+  last_tags_ = own_tags(tags, known.expected, known.camera_from_table);
+  const auto fit = solve_body(last_tags_, known.expected, bias);
+  const bool is_own = fit && is_above(known.camera_from_table, fit->camera_from_body);
+  n_foreign_ += static_cast<int>(is_own ? tags.size() - last_tags_.size() : tags.size());
+  return is_own ? fit : std::nullopt;
 }
 
 std::optional<BodyFit> BodyFinder::with_others(const Image& gray, const BodyFit& fit,
@@ -146,6 +158,7 @@ BodyFit BodyFinder::solve_moving(const BodyFit& found, const Velocity& velocity,
 std::optional<BodyFit> BodyFinder::find_again(const Image& gray, const Pose& expected,
                                               const Enough& enough, const BiasPrior& prior,
                                               TrackerTimes& times) {
+  n_foreign_ = 0;
   const double blur_px = how_.blur_px;
   const auto fit = seen_again(gray, expected, enough, prior, times);
   if (fit && fit->quality >= enough.quality) return fit;
@@ -171,26 +184,25 @@ std::optional<BodyFit> BodyFinder::seen_again(const Image& gray, const Pose& exp
   return with_others(gray, *fit, done, bias, times);
 }
 
-std::vector<TagObservation> BodyFinder::measure_detected(const Image& gray,
-                                                         const std::vector<DetectedTag>& detected,
-                                                         std::vector<bool>& done) {
-  std::vector<TagObservation> tags, fallback;
+BodyFinder::Measured BodyFinder::measure_detected(const Image& gray,
+                                                  const std::vector<DetectedTag>& detected,
+                                                  std::vector<bool>& done) {
+  Measured tags;
   how_.whole = false;
   for (const DetectedTag& found : detected) {
     const auto tag = std::ranges::find(body_.tags, found.id, &Tag::id);
     if (tag == body_.tags.end()) continue;
     const auto index = static_cast<std::size_t>(tag - body_.tags.begin());
     if (!settings_.refine_edges) {
-      tags.push_back(unrefined(index, found.corners_px));
+      tags.clear.push_back(unrefined(index, found.corners_px));
     } else {
       const auto seen = observed(index, measure(gray, index, found.corners_px));
       const bool good = seen.quality >= settings_.least_quality;
-      (good ? tags : fallback).push_back(seen);
-      done[index] = good;
+      (good ? tags.clear : tags.rough).push_back(seen);
+      done[index] = done[index] || good;
     }
   }
-  // Tags whose edges cannot be measured (a finger on them, no white margin) give a rough pose.
-  return tags.empty() ? fallback : tags;
+  return tags;
 }
 
 std::vector<TagObservation> BodyFinder::measure_expected(const Image& gray,

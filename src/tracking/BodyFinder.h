@@ -47,10 +47,17 @@ class BodyFinder {
   /// Information on the camera's tone curve from the edges of the last find.
   const PictureTone& tone() const { return tone_; }
 
-  /// From detected tags. @param expected pose of the body; used only to resolve ambiguities
+  /// What is known before a body is found.
+  struct Known {
+    std::optional<Pose> expected;  ///< pose of the body; used only to resolve ambiguities
+    BiasPrior bias;
+    std::optional<Pose> camera_from_table = {};  ///< the body is above it
+  };
+  /// From detected tags, which may hold one tag several times.
   std::optional<BodyFit> find(const Image& gray, const std::vector<DetectedTag>& detected,
-                              const std::optional<Pose>& expected, const BiasPrior& prior,
-                              TrackerTimes& times);
+                              const Known& known, TrackerTimes& times);
+  /// Tags of the last find that are not the body's: of a second print with the same numbers.
+  int n_foreign() const { return n_foreign_; }
 
   /// Requirements for continuing from an expected pose.
   struct Enough {
@@ -78,9 +85,14 @@ class BodyFinder {
                        TrackerTimes& times) const;
 
  private:
-  std::vector<TagObservation> measure_detected(const Image& gray,
-                                               const std::vector<DetectedTag>& detected,
-                                               std::vector<bool>& done);
+  struct Measured {
+    std::vector<TagObservation> clear, rough;  ///< with and without measured edges
+  };
+  Measured measure_detected(const Image& gray, const std::vector<DetectedTag>& detected,
+                            std::vector<bool>& done);
+  /// From the tags that fit one pose above the table.
+  std::optional<BodyFit> fit_own(const std::vector<TagObservation>& tags, const Known& known,
+                                 const BiasPrior& bias);
   std::optional<BodyFit> seen_again(const Image& gray, const Pose& expected, const Enough& enough,
                                     const BiasPrior& prior, TrackerTimes& times);
   /// Extends a fit by tags that can be found where it puts them.
@@ -105,6 +117,7 @@ class BodyFinder {
   std::vector<TagPattern> patterns_;
   PictureTone tone_;
   std::vector<TagObservation> last_tags_;  ///< of the last find, or find_again
+  int n_foreign_ = 0;
 };
 
 }  // namespace heft

@@ -105,11 +105,8 @@ std::vector<DetectedTag> Tracker::detect(TagDetector& detector, const Region& re
                                          EdgeSearch search) {
   const double start_s = monotonic_s();
   std::vector<DetectedTag> tags = detector.detect(gray_, region, search);
-  // Of two tags with one id the one that was read more clearly is used.
   std::ranges::sort(tags, std::greater{}, &DetectedTag::decision_margin);
   std::ranges::stable_sort(tags, {}, &DetectedTag::id);
-  const auto same_id = [](const DetectedTag& a, const DetectedTag& b) { return a.id == b.id; };
-  tags.erase(std::unique(tags.begin(), tags.end(), same_id), tags.end());
   result_.times.detect_s += monotonic_s() - start_s;
   return tags;
 }
@@ -135,13 +132,13 @@ std::optional<BodyFit> Tracker::find_board() {
     // A single tag must be read to be certain.
     if (fit && fit->n_tags > 1) return fit;
   }
-  const auto fit = board_.find(gray_, all_board_tags(), last_board_, unknown_bias, result_.times);
+  const auto fit = board_.find(gray_, all_board_tags(), {last_board_, unknown_bias}, result_.times);
   if (fit) return fit;
   // Tracking needs the board, so that an occasional thorough search of a shadowed one is worth its
   // time.
   if (n_without_board_ % pictures_without_a_close_search != 0) return std::nullopt;
   board_family_tags_ = detect(detectors_.front(), whole(gray_), EdgeSearch::everywhere);
-  return board_.find(gray_, *board_family_tags_, last_board_, unknown_bias, result_.times);
+  return board_.find(gray_, *board_family_tags_, {last_board_, unknown_bias}, result_.times);
 }
 
 void Tracker::expect_picture() {
@@ -168,10 +165,11 @@ std::optional<BodyFit> Tracker::learn_tone(std::optional<BodyFit> board) {
 
 std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double t_s) {
   const BiasPrior prior = bias_of_effector(seen_board);
+  BodyFinder::Known known{{}, prior, seen_board.camera_from_body};
   const auto expected_by = [&](const Velocity& by) {
     return normalized(seen_board.camera_from_body * seen_->expected_at(t_s + seen_->own_row_s, by));
   };
-  std::optional<Pose> expected;
+  std::optional<Pose>& expected = known.expected;
   if (seen_ && seen_->tells_of(t_s)) expected = expected_by(seen_->velocity);
   if (settings_.region_of_interest && expected && !board_family_tags_) {
     // A continued motion is found by edges; cells confirm that they are its tags.
@@ -182,11 +180,10 @@ std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double 
       if (fit) return unrolled(*fit, seen_board, prior, t_s);
     }
     const Region region = region_around(camera_, effector_.body(), *expected);
-    const auto fit =
-        effector_.find(gray_, detect(detectors_.back(), region), expected, prior, result_.times);
+    const auto fit = effector_.find(gray_, detect(detectors_.back(), region), known, result_.times);
     if (fit) return unrolled(*fit, seen_board, prior, t_s);
   }
-  const auto fit = effector_.find(gray_, all_effector_tags(), expected, prior, result_.times);
+  const auto fit = effector_.find(gray_, all_effector_tags(), known, result_.times);
   if (!fit) return fit;
   return unrolled(*fit, seen_board, prior, t_s);
 }
@@ -272,10 +269,12 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
   result_ = {};
   result_.effector_t_s = t_s;
   auto board = learn_tone(find_board());
+  result_.n_foreign_tags = board_.n_foreign();
   if (board && !has_effector() && board->quality < least_pose_quality) board.reset();
   take_board(board);
   if (board && has_effector()) {
     const auto effector = find_effector(*board, t_s);
+    result_.n_foreign_tags += effector_.n_foreign();
     if (effector && effector->quality >= least_pose_quality)
       take_effector(*effector, t_s);
     else

@@ -26,6 +26,7 @@ struct TrackedPicture {
   double effector_t_s = 0;  ///< that time; the picture's without readout_s or effector
   int n_board_tags = 0, n_effector_tags = 0;
   int n_effector_faces = 0;  ///< faces with those tags; at least two make the pose well determined
+  int n_foreign_tags = 0;    ///< of another print with the board's or the effector's numbers
   /// RMS distance of measured tag edges from the pose's.
   double board_reprojection_px = 0, effector_reprojection_px = 0;
   /// Confidence in the effector's pose (the board's without an effector), 0...1: the fraction of

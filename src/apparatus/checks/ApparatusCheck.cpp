@@ -91,6 +91,7 @@ std::vector<CheckResult> ApparatusCheck::results(const CameraMode& mode, double 
     all.push_back(rate_verdict(pictures_, wanted_rate_hz));
   }
   all.push_back(light_verdict(pictures_));
+  all.push_back(doubles_verdict(pictures_));
   all.push_back(print_scale_verdict(apparatus_.board, "print scale", "board"));
   const auto never = [&](std::optional<Pose> TrackedPicture::*pose) {
     return std::ranges::none_of(

@@ -63,6 +63,8 @@ using Pictures = std::vector<LookedAt>;
 std::vector<CheckResult> lock_verdicts(const CameraMode& mode);
 CheckResult rate_verdict(const Pictures& pictures, double wanted_rate_hz);
 CheckResult light_verdict(const Pictures& pictures);
+/// Second prints with the numbers of the board's or the effector's tags.
+CheckResult doubles_verdict(const Pictures& pictures);
 /// @param name of the result  @param what name of the body in messages
 CheckResult print_scale_verdict(const MarkerBody& body, const char* name, const char* what);
 /// @param seen the tone curve that the tracker estimated; the camera file may hold another one

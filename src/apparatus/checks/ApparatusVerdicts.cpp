@@ -110,6 +110,17 @@ CheckResult rate_verdict(const Pictures& pictures, double wanted_rate_hz) {
               figure, wanted_rate_hz)};
 }
 
+CheckResult doubles_verdict(const Pictures& pictures) {
+  const double doubled =
+      fraction_of(pictures, [](const LookedAt& seen) { return seen.tracked.n_foreign_tags > 0; });
+  if (doubled == 0) return {CheckVerdict::ok, "doubles", "each tag is in view once"};
+  return {
+      CheckVerdict::warning, "doubles",
+      fmt::format("{:.0f} % of pictures show a second print of a tag (expected none): put spare "
+                  "sheets and nets away",
+                  100 * doubled)};
+}
+
 CheckResult light_verdict(const Pictures& pictures) {
   const double level = median(pictures, &LookedAt::brightness);
   const double white = median(pictures, &LookedAt::white_fraction);

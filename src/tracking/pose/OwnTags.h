@@ -1,0 +1,22 @@
+// Which of a picture's tags belong to a body: a second print of the same tags may lie in view.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "tracking/pose/BodyPose.h"
+
+namespace heft {
+
+/// Whether the body's origin is above the table's plane; always true where no table is known. A
+/// spare net of an effector that lies on the table would put the effector half into it.
+bool is_above(const std::optional<Pose>& camera_from_table, const Pose& camera_from_body);
+
+/// The tags that fit one pose of the body, each once; all of them if none is there twice and none
+/// would put the body below the table. Every tag proposes its pose; the one that the most corners
+/// agree with is taken, and one near the expected pose counts as an agreeing tag more.
+std::vector<TagObservation> own_tags(const std::vector<TagObservation>& tags,
+                                     const std::optional<Pose>& expected,
+                                     const std::optional<Pose>& camera_from_table);
+
+}  // namespace heft
