@@ -127,7 +127,7 @@ void study_hands(const StudyOptions& options) {
               "most_cubes_rms_mm,most_turn_deg");
   const auto& settings = EnumNames<Setting>::names;
   const int n_each = options.quick ? 1 : 100;
-  std::map<Key, Runs> through_middle, beside_middle;
+  std::map<Key, Runs> even, uneven;
   StudyProgress progress(static_cast<int>(settings.size()));
   for (std::size_t s = 0; s < settings.size(); ++s) {
     progress.next(fmt::format("hands of seed {}: {}", options.seed, settings[s]));
@@ -148,14 +148,12 @@ void study_hands(const StudyOptions& options) {
     }
     for (const auto& [key, runs] : here) {
       write(csv, options.seed, key, settings[s], runs);
-      (pushes_beside(static_cast<Setting>(s)) ? beside_middle : through_middle)[key].add(runs);
+      (loads_unevenly(static_cast<Setting>(s)) ? uneven : even)[key].add(runs);
     }
   }
-  for (const auto& [key, runs] : through_middle)
-    write(csv, options.seed, key, "through_middle", runs);
-  for (const auto& [key, runs] : beside_middle)
-    write(csv, options.seed, key, "beside_middle", runs);
-  chart(options, through_middle);
+  for (const auto& [key, runs] : even) write(csv, options.seed, key, "even", runs);
+  for (const auto& [key, runs] : uneven) write(csv, options.seed, key, "uneven", runs);
+  chart(options, even);
 }
 
 }  // namespace heft

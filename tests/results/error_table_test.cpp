@@ -48,8 +48,8 @@ std::string error_table_text(std::string_view hands_csv) {
   return fmt::format(
       "// Written from results/physics/hands.csv; see tests/results/error_table_test.cpp.\n"
       "{{\"push\", {{{}}}, {{}}}},\n{{\"boxes\", {{{}}}, Tolerance{{{}}}}},\n",
-      errors("push", "15", "through_middle"), errors("boxes", "240", "through_middle"),
-      errors("boxes", "240", "beside_middle"));
+      errors("push", "15", "even"), errors("boxes", "240", "even"),
+      errors("boxes", "240", "uneven"));
 }
 
 TEST(ErrorTable, IsThatOfTheCheckedInResults) {
@@ -63,9 +63,9 @@ TEST(ErrorTable, IsThatOfTheCheckedInResults) {
 TEST(ErrorTable, TakesPushAndBoxesAtTheRateOfAutoInSIUnits) {
   const std::string text = error_table_text(
       "simulator,rate_hz,setting,most_clone_rms_mm,most_lag_g,most_cubes_rms_mm,most_turn_deg\n"
-      "boxes,240,one,9,9,9,9\nboxes,240,through_middle,0.12345,0.5,0.25,18\n"
-      "boxes,60,through_middle,8,8,8,8\nboxes,240,beside_middle,1,2,3,180\n"
-      "bullet-lx,240,through_middle,1,1,1,1\npush,15,through_middle,0,0,0,0\n");
+      "boxes,240,one,9,9,9,9\nboxes,240,even,0.12345,0.5,0.25,18\n"
+      "boxes,60,even,8,8,8,8\nboxes,240,uneven,1,2,3,180\n"
+      "bullet-lx,240,even,1,1,1,1\npush,15,even,0,0,0,0\n");
   EXPECT_NE(text.find("{\"push\", {0, 0, 0, 0}, {}},\n"
                       "{\"boxes\", {0.000123, 0.5, 0.00025, 0.314}, "
                       "Tolerance{0.001, 2, 0.003, 3.14}},\n"),

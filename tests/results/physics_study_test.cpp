@@ -129,8 +129,8 @@ TEST_F(QuickStudy, DrawsRandomHandsFromItsSeed) {
     if (row.at("simulator") == "boxes" && row.at("rate_hz") == "240")
       n_ran[row.at("setting")] = std::stoi(row.at("n_ran"));
   }
-  EXPECT_EQ(n_ran["through_middle"], 11);
-  EXPECT_EQ(n_ran["beside_middle"], 2);
+  EXPECT_EQ(n_ran["even"], 9);
+  EXPECT_EQ(n_ran["uneven"], 4);
   const BenchScene one = random_scene(Setting::staggered, 7, 3);
   EXPECT_EQ(path_csv(one), path_csv(random_scene(Setting::staggered, 7, 3)));
   EXPECT_NE(path_csv(one), path_csv(random_scene(Setting::staggered, 7, 4)));

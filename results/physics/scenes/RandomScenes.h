@@ -82,10 +82,11 @@ constexpr bool has_one_answer(Setting setting) {
          setting != Setting::tower;
 }
 
-/// Whether the hand turns by up to 0.6 rad or pushes up to 30 mm beside the middle of a cube. In
-/// all other settings it sways, trembles and pushes within 4 mm of the middle.
-constexpr bool pushes_beside(Setting setting) {
-  return setting == Setting::aside || setting == Setting::turning;
+/// Whether the hand turns by up to 0.6 rad, pushes up to 30 mm beside the middle of a cube, or
+/// moves stacked cubes. In all other settings it sways, trembles and pushes within 4 mm of the
+/// middle of cubes on the table.
+constexpr bool loads_unevenly(Setting setting) {
+  return !has_one_answer(setting);
 }
 
 /// Poses a second of its path.

@@ -40,16 +40,19 @@ std::string promise_of(const Tolerance& known, const Tolerance& asked) {
 
 SimulatorPick pick_of(const KnownError& known, const Scene& scene, double at_least_hz) {
   const Tolerance& asked = scene.tolerance;
-  const std::string through = promise_of(known.through_middle, asked);
-  if (!known.beside_middle)  // exact at any rate
+  const std::string where_even = promise_of(known.even, asked);
+  if (!known.uneven)  // exact at any rate
     return {std::string(known.simulator), at_least_hz,
-            "models a straight push of one cube, " + through};
+            "models a straight push of one cube, " + where_even};
   const std::string why = fmt::format(
-      "models everything; 99.5 % of simulated hands that push within 4 mm of the middle of a "
-      "cube are {}; where hands turn by up to 35 degrees or push up to 30 mm beside the middle, {}",
-      through,
+      "models everything; 99.5 % of simulated hands that push within 4 mm of the middle of cubes "
+      "on "
+      "the table are {}; where hands turn by up to 35 degrees, push up to 30 mm beside the middle "
+      "or "
+      "move stacked cubes, {}",
+      where_even,
       scene.contact_compliance_m_per_n > 0
-          ? promise_of(*known.beside_middle, asked)
+          ? promise_of(*known.uneven, asked)
           : "rigid contacts have no unique result (set contact_compliance_m_per_n)");
   return {std::string(known.simulator),
           std::max(std::ceil(auto_rate_hz * times_faster(scene)), at_least_hz), why};
@@ -71,8 +74,8 @@ std::string described(const SimulatorPick& pick) {
 std::vector<SimulatorPick> simulator_ladder(const Scene& scene, double at_least_hz) {
   std::vector<SimulatorPick> ladder;
   for (const KnownError& known : table)
-    if (known.beside_middle ||
-        (keeps(known.through_middle, scene.tolerance) && scene.contact_compliance_m_per_n == 0))
+    if (known.uneven ||
+        (keeps(known.even, scene.tolerance) && scene.contact_compliance_m_per_n == 0))
       ladder.push_back(pick_of(known, scene, at_least_hz));
   return ladder;
 }
