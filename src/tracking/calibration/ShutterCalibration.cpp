@@ -10,6 +10,7 @@
 #include "base/Error.h"
 #include "base/Pose.h"
 #include "base/math/LevenbergMarquardt.h"
+#include "base/math/Quantiles.h"
 #include "tracking/calibration/CameraCalibration.h"
 
 namespace heft {
@@ -86,6 +87,21 @@ std::vector<Placed> placed(const MarkerBody& board, const Intrinsics& camera,
   return all;
 }
 
+double unsteadiness_of(const std::vector<Placed>& all) {
+  std::vector<double> changes;
+  for (std::size_t i = 1; i + 1 < all.size(); ++i) {
+    if (!all[i].velocity) continue;
+    const auto mean_m_s = [&](const Placed& from, const Placed& to) {
+      return mean_velocity(from.pose, to.pose, to.seen->t_s - from.seen->t_s).linear_m_s;
+    };
+    const Eigen::Vector3d before_m_s = mean_m_s(all[i - 1], all[i]);
+    const Eigen::Vector3d after_m_s = mean_m_s(all[i], all[i + 1]);
+    const double sum_m_s = before_m_s.norm() + after_m_s.norm();
+    if (sum_m_s > 0) changes.push_back((after_m_s - before_m_s).norm() / sum_m_s);
+  }
+  return quantile(changes, 0.5).value_or(0);
+}
+
 void find_velocities(std::vector<Placed>& all) {
   for (std::size_t i = 1; i + 1 < all.size(); ++i) {
     const double before_s = all[i].seen->t_s - all[i - 1].seen->t_s;
@@ -130,6 +146,7 @@ ShutterCalibration calibrate_shutter(const MarkerBody& board, const Intrinsics& 
   }
   for (const Placed& at : all)
     if (at.velocity) speeds_m_s.push_back(at.velocity->linear_m_s.norm());
+  result.unsteadiness = unsteadiness_of(all);
   std::ranges::sort(speeds_m_s);
   result.n_pictures = speeds_m_s.size();
   result.fastest_m_s = speeds_m_s[speeds_m_s.size() * 9 / 10];
@@ -137,11 +154,16 @@ ShutterCalibration calibrate_shutter(const MarkerBody& board, const Intrinsics& 
 }
 
 std::vector<std::string> doubts(const ShutterCalibration& calibration) {
-  constexpr double most_sd_s = 0.0005, longest_s = 0.05;
+  constexpr double most_sd_s = 0.0005, longest_s = 0.05, most_unsteadiness = 0.5;
   std::vector<std::string> found;
   if (calibration.n_pictures < enough_waved_pictures / 2)
     found.push_back(fmt::format("only {} pictures of a moving board; wave it for several seconds",
                                 calibration.n_pictures));
+  if (calibration.unsteadiness > most_unsteadiness)
+    found.emplace_back(
+        "the board jumps from picture to picture instead of moving: the pictures are still views, "
+        "or "
+        "their times are wrong; film the board while you wave it");
   if (!(calibration.sd_s < most_sd_s))
     found.push_back(fmt::format(
         "the read-out has a standard error of {:.1f} ms; wave the board faster, to and fro and up "

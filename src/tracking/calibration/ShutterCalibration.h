@@ -24,6 +24,9 @@ struct ShutterCalibration {
   std::size_t n_pictures = 0;  ///< with one before and one after
   double fastest_m_s = 0;      ///< 90th percentile of the speed of the board's middle
   double rms_px = 0;
+  /// Median change of the velocity from one interval between pictures to the next, relative to the
+  /// sum of both speeds: 0 for uniform motion, 0.2 for a waved board, 0.8 for unrelated views.
+  double unsteadiness = 0;
 };
 
 /// Pictures further apart do not determine the velocity between them.

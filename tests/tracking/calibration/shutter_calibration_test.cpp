@@ -22,12 +22,15 @@ Pose waved(double t_s, double vigor) {
 }
 
 // What each row sees when it is read; corners are some hundredths of a pixel off.
-std::vector<TimedView> filmed(double readout_s, double vigor, int n) {
+// @param moment when picture i is taken
+template <typename Moment>
+std::vector<TimedView> filmed(double readout_s, double vigor, int n, const Moment& moment) {
   const Apparatus apparatus = default_apparatus(640);
   RandomStream random(5, "corners");
   std::vector<TimedView> views;
   for (int i = 0; i < n; ++i) {
     TimedView seen{i / 30.0, {}};
+    const double moment_s = moment(i);
     for (std::size_t tag = 0; tag < apparatus.board.tags.size(); ++tag) {
       SeenTag corners{tag, {}};
       for (std::size_t c = 0; c < 4; ++c) {
@@ -35,7 +38,7 @@ std::vector<TimedView> filmed(double readout_s, double vigor, int n) {
         Eigen::Vector2d pixel(0, 240);
         for (int round = 0; round < 5; ++round) {
           const double late_s = readout_s * pixel.y() / apparatus.camera.height_px;
-          pixel = project(apparatus.camera, waved(seen.t_s + late_s, vigor) * corner_m);
+          pixel = project(apparatus.camera, waved(moment_s + late_s, vigor) * corner_m);
         }
         corners.corners_px[c] = pixel + 0.05 * Eigen::Vector2d(random.normal(), random.normal());
       }
@@ -48,7 +51,8 @@ std::vector<TimedView> filmed(double readout_s, double vigor, int n) {
 
 ShutterCalibration found(double readout_s, double vigor = 1, int n = 60) {
   const Apparatus apparatus = default_apparatus(640);
-  return calibrate_shutter(apparatus.board, apparatus.camera, filmed(readout_s, vigor, n));
+  return calibrate_shutter(apparatus.board, apparatus.camera,
+                           filmed(readout_s, vigor, n, [](int i) { return i / 30.0; }));
 }
 
 TEST(ShutterCalibration, FindsTheReadoutWithinAMillisecond) {
@@ -64,6 +68,17 @@ TEST(ShutterCalibration, DoubtsABoardThatHardlyMoves) {
   const ShutterCalibration calibration = found(0.025, 0.01);
   EXPECT_FALSE(doubts(calibration).empty());
   EXPECT_THAT(summary(calibration), testing::HasSubstr("verdict: doubtful"));
+}
+
+// Views for a calibration of the lens, in any order: no row is late, and nothing moved.
+TEST(ShutterCalibration, DoubtsStillViews) {
+  RandomStream random(7, "still views");
+  const Apparatus apparatus = default_apparatus(640);
+  const ShutterCalibration calibration =
+      calibrate_shutter(apparatus.board, apparatus.camera,
+                        filmed(0, 2, 44, [&](int) { return 100 * random.uniform(); }));
+  EXPECT_THAT(doubts(calibration), testing::Contains(testing::HasSubstr("still views")));
+  EXPECT_LT(found(0.025).unsteadiness, 0.3);
 }
 
 TEST(ShutterCalibration, RefusesPicturesWithoutNeighbors) {
