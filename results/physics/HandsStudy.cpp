@@ -71,51 +71,63 @@ void write(CsvFile& csv, std::uint64_t seed, const Key& key, std::string_view se
           at(runs.lag_g, nearly_all), at(runs.cubes_mm, nearly_all), at(runs.turn_deg, nearly_all));
 }
 
-// One line for each simulator over its rates, at the median and at a high quantile.
-void chart(const StudyOptions& options, const std::map<Key, Runs>& all) {
+// Runs of all settings of a group.
+using Group = std::map<Key, Runs>;
+
+// A row of panels for each group; in each panel a line for each simulator over its rates, at the
+// median and at a high quantile.
+void chart(const StudyOptions& options, const Group& even, const Group& uneven) {
   struct Panel {
     const char* title;
     std::vector<double> Runs::*errors;
     double allowed;
   };
+  struct Row {
+    const char* words;
+    const Group* group;
+  };
   const Tolerance allowed;
-  const Panel panels[] = {
-      {"clone (mm RMS)", &Runs::clone_mm, 1e3 * allowed.clone_rms_m},
-      {"cubes (mm RMS)", &Runs::cubes_mm, 1e3 * allowed.cubes_rms_m},
-      {"lag (g)", &Runs::lag_g, allowed.lag_g},
-      {"orientation (degrees RMS)", &Runs::turn_deg, allowed.turn_rms_rad * 180 / M_PI}};
+  const Panel panels[] = {{"clone (mm RMS)", &Runs::clone_mm, 1e3 * allowed.clone_rms_m},
+                          {"cubes (mm RMS)", &Runs::cubes_mm, 1e3 * allowed.cubes_rms_m},
+                          {"lag (g)", &Runs::lag_g, allowed.lag_g}};
   std::string data, plots;
   int block = 0;
-  for (const Panel& panel : panels) {
-    plots += fmt::format("set title {}\nplot {} with lines dashtype 2 linecolor '#999999' notitle",
-                         gnuplot_quoted(panel.title), panel.allowed);
-    for (const std::string_view simulator : {"boxes", "bullet-lx"}) {
-      data += fmt::format("$block{} << END\n", block);
-      for (const auto& [key, runs] : all)
-        if (key.first == simulator)
-          data += fmt::format("{} {} {}\n", key.second, std::max(1e-6, at(runs.*panel.errors, 0.5)),
-                              std::max(1e-6, at(runs.*panel.errors, nearly_all)));
-      data += "END\n";
-      plots += fmt::format(
-          ", $block{0} using 1:3 with linespoints pointtype 7 pointsize 0.5 linewidth 2 linecolor "
-          "'{1}' title '{2}', $block{0} using 1:2 with lines linewidth 1 linecolor '{1}' notitle",
-          block++, color_of(simulator), simulator);
+  for (const Row& row : {Row{"through the middle", &even}, {"turning, beside it, stacks", &uneven}})
+    for (const Panel& panel : panels) {
+      plots +=
+          fmt::format("set title {}\nplot {} with lines dashtype 2 linecolor '#999999' notitle",
+                      gnuplot_quoted(fmt::format("{}: {}", row.words, panel.title)), panel.allowed);
+      for (const std::string_view simulator : {"boxes", "bullet-lx"}) {
+        data += fmt::format("$block{} << END\n", block);
+        for (const auto& [key, runs] : *row.group)
+          if (key.first == simulator)
+            data += fmt::format("{} {} {}\n", key.second, at(runs.*panel.errors, 0.5),
+                                at(runs.*panel.errors, nearly_all));
+        data += "END\n";
+        plots += fmt::format(
+            ", $block{0} using 1:3 with linespoints pointtype 7 pointsize 0.5 linewidth 2 "
+            "linecolor '{1}' title '{2}', $block{0} using 1:2 with lines linewidth 1 linecolor "
+            "'{1}' notitle",
+            block++, color_of(simulator), simulator);
+      }
+      plots += "\nunset label\nunset key\n";  // once
     }
-    plots += "\nunset label\n";  // prevents title and caption in each panel
-  }
   const std::string caption = fmt::format(
-      "Random scenes: minimum-jerk strokes that sway, tremble and push within 4 mm of the middle "
-      "of "
-      "one to three cubes, seen at 15 to 60 Hz. Thick: what 99.75 % stay within; thin: the median. "
-      "Dashed: what auto tolerates. Truth: boxes at {} Hz. {}",
+      "Random scenes: minimum-jerk strokes that sway and tremble, seen at 15 to 60 Hz. Upper row: "
+      "within 4 mm of the middle of one to three cubes on the table, half of them with contacts "
+      "that "
+      "yield; lower row: hands that turn by up to 35 degrees, push up to 30 mm beside the middle "
+      "or "
+      "move stacked cubes, all with such contacts. Thick: what 99.75 % stay within; thin: the "
+      "median. Dashed: what auto tolerates. Truth: boxes at {} Hz. {}",
       16 * reference_rate_hz, provenance(options));
   draw(options, "hands",
-       gnuplot_header({"hands.svg", 1300, 440, "Hands as they are: error against rate", caption}) +
+       gnuplot_header({"hands.svg", 1300, 760, "Hands as they are: error against rate", caption}) +
            data +
            "set logscale xy\nset format y '%g'\nset xtics (15, 60, 240, 960)\n"
-           "set xlabel 'steps a second'\nset key bottom left font ',10'\n"
-           "set multiplot layout 1,4 margins screen 0.065, screen 0.985, screen caption_top + "
-           "72*pixel, screen 1-80*pixel spacing screen 0.065\n" +
+           "set xlabel 'steps a second'\nset key bottom left font ',10'\nset yrange [1e-4:100]\n"
+           "set multiplot layout 2,3 margins screen 0.065, screen 0.985, screen caption_top + "
+           "84*pixel, screen 1-80*pixel spacing screen 0.065, screen 100*pixel\n" +
            plots + "unset multiplot\n");
 }
 }  // namespace
@@ -127,11 +139,11 @@ void study_hands(const StudyOptions& options) {
               "most_cubes_rms_mm,most_turn_deg");
   const auto& settings = EnumNames<Setting>::names;
   const int n_each = options.quick ? 1 : 100;
-  std::map<Key, Runs> even, uneven;
+  Group even, uneven;
   StudyProgress progress(static_cast<int>(settings.size()));
   for (std::size_t s = 0; s < settings.size(); ++s) {
     progress.next(fmt::format("hands of seed {}: {}", options.seed, settings[s]));
-    std::map<Key, Runs> here;
+    Group here;
     for (int n = 0; n < n_each; ++n) {
       BenchScene scene = random_scene(static_cast<Setting>(s), options.seed, n);
       if (n % 2 == 1) scene.scene.contact_compliance_m_per_n = 1e-4;
@@ -153,7 +165,7 @@ void study_hands(const StudyOptions& options) {
   }
   for (const auto& [key, runs] : even) write(csv, options.seed, key, "even", runs);
   for (const auto& [key, runs] : uneven) write(csv, options.seed, key, "uneven", runs);
-  chart(options, even);
+  chart(options, even, uneven);
 }
 
 }  // namespace heft
