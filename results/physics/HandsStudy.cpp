@@ -122,12 +122,12 @@ void chart(const StudyOptions& options, const Group& even, const Group& uneven) 
       "median. Dashed: what auto tolerates. Truth: boxes at {} Hz. {}",
       16 * reference_rate_hz, provenance(options));
   draw(options, "hands",
-       gnuplot_header({"hands.svg", 1300, 760, "Hands as they are: error against rate", caption}) +
+       gnuplot_header({"hands.svg", 1300, 840, "Hands as they are: error against rate", caption}) +
            data +
            "set logscale xy\nset format y '%g'\nset xtics (15, 60, 240, 960)\n"
            "set xlabel 'steps a second'\nset key bottom left font ',10'\nset yrange [1e-4:100]\n"
            "set multiplot layout 2,3 margins screen 0.065, screen 0.985, screen caption_top + "
-           "84*pixel, screen 1-80*pixel spacing screen 0.065, screen 100*pixel\n" +
+           "84*pixel, screen 1-80*pixel spacing screen 0.065, screen 135*pixel\n" +
            plots + "unset multiplot\n");
 }
 }  // namespace
