@@ -142,8 +142,7 @@ std::optional<BodyFit> Tracker::find_board() {
 }
 
 void Tracker::expect_picture() {
-  const double noise = noise_of(gray_);
-  for (BodyFinder* finder : {&board_, &effector_}) finder->expect(noise, tone_.curve());
+  for (BodyFinder* finder : {&board_, &effector_}) finder->expect(noise_, tone_.curve());
 }
 
 // Repeats the measurement of the board's edges until the learned tone curve no longer moves them.
@@ -238,6 +237,7 @@ void Tracker::take_board(const std::optional<BodyFit>& fit) {
   last_n_board_tags_ = result_.n_board_tags = fit->n_tags;
   result_.board_reprojection_px = fit->rms_px;
   result_.edge_bias_px = fit->bias_px;
+  result_.blur_px = board_.blur_px().mean();
   if (!has_effector()) result_.quality = fit->quality;
 }
 
@@ -265,8 +265,10 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
         image.width, image.height, camera_.width_px, camera_.height_px));
   gray_ = gray_of(image);
   board_family_tags_.reset();
+  noise_ = noise_of(gray_);
   expect_picture();
   result_ = {};
+  result_.noise = noise_;
   result_.effector_t_s = t_s;
   auto board = learn_tone(find_board());
   result_.n_foreign_tags = board_.n_foreign();

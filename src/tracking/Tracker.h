@@ -26,6 +26,8 @@ struct TrackedPicture {
   double effector_t_s = 0;  ///< that time; the picture's without readout_s or effector
   int n_board_tags = 0, n_effector_tags = 0;
   int n_effector_faces = 0;  ///< faces with those tags; at least two make the pose well determined
+  double noise = 0;          ///< SD, gray levels of 255
+  double blur_px = 0;        ///< SD of the board's edges, in linear light; 0 without the board
   int n_foreign_tags = 0;    ///< of another print with the board's or the effector's numbers
   /// RMS distance of measured tag edges from the pose's.
   double board_reprojection_px = 0, effector_reprojection_px = 0;
@@ -88,6 +90,7 @@ class Tracker {
   std::vector<TagDetector> detectors_;  ///< one, or the board's and the effector's
 
   // Of the current picture:
+  double noise_ = 0;  ///< of the picture
   Image gray_;
   std::optional<std::vector<DetectedTag>> board_family_tags_;
   TrackedPicture result_;

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "apparatus/checks/ApparatusCheck.h"
+#include "base/Error.h"
+#include "tracking/Scenes.h"
 
 namespace heft {
 namespace {
@@ -63,6 +65,45 @@ TEST(ToneVerdict, NamesACameraThatBends) {
   EXPECT_THAT(told.finding, HasSubstr("the camera bends tones"));
   EXPECT_EQ(tone_verdict(camera, srgb).verdict, CheckVerdict::warning);
   EXPECT_THAT(tone_verdict(camera, srgb).finding, HasSubstr("it differs from the calibration"));
+}
+
+// Pictures of a camera as the verdicts see them.
+std::vector<CheckResult> verdicts_of(const Optics& optics, const Apparatus& filmed,
+                                     const Apparatus& apparatus) {
+  SyntheticSettings settings;
+  settings.optics = optics;
+  SyntheticCamera camera(filmed, settings, 3);
+  ApparatusCheck check(apparatus);
+  for (int i = 0; i < 5; ++i) {
+    const double t_s = i / 15.0;
+    CameraPicture picture;
+    picture.image = camera.picture(out_of_view, t_s, static_cast<std::uint64_t>(i));
+    picture.capture_s = t_s;
+    check.see(picture, -1);
+  }
+  return check.results({}, 15, false);
+}
+
+CheckVerdict verdict_on(const std::string& name, const std::vector<CheckResult>& results) {
+  const auto found = std::ranges::find(results, name, &CheckResult::name);
+  if (found == results.end()) throw Error("no verdict on " + name);
+  return found->verdict;
+}
+
+TEST(PictureVerdicts, NameBlurNoiseAndSecondPrints) {
+  const Apparatus apparatus = default_apparatus(640);
+  const auto usual = verdicts_of({}, apparatus, apparatus);
+  for (const char* name : {"sharpness", "noise", "doubles"})
+    EXPECT_EQ(verdict_on(name, usual), CheckVerdict::ok) << name;
+  Optics defocused, noisy;
+  defocused.blur_px = 1.6;
+  noisy.noise = 10;
+  EXPECT_EQ(verdict_on("sharpness", verdicts_of(defocused, apparatus, apparatus)),
+            CheckVerdict::warning);
+  EXPECT_EQ(verdict_on("noise", verdicts_of(noisy, apparatus, apparatus)), CheckVerdict::warning);
+  Apparatus doubled = apparatus;
+  doubled.board.tags[0].id = doubled.board.tags[7].id;
+  EXPECT_EQ(verdict_on("doubles", verdicts_of({}, doubled, apparatus)), CheckVerdict::warning);
 }
 
 TEST(BoardVerdict, SaysWhyItMayBeInNoPicture) {

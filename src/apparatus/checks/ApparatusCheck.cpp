@@ -91,6 +91,7 @@ std::vector<CheckResult> ApparatusCheck::results(const CameraMode& mode, double 
     all.push_back(rate_verdict(pictures_, wanted_rate_hz));
   }
   all.push_back(light_verdict(pictures_));
+  all.push_back(noise_verdict(pictures_));
   all.push_back(doubles_verdict(pictures_));
   all.push_back(print_scale_verdict(apparatus_.board, "print scale", "board"));
   const auto never = [&](std::optional<Pose> TrackedPicture::*pose) {
@@ -105,6 +106,7 @@ std::vector<CheckResult> ApparatusCheck::results(const CameraMode& mode, double 
   all.push_back(board_verdict(pictures_, apparatus_.board,
                               why(no_board, apparatus_.board, "board", apparatus_.effector)));
   if (!no_board) all.push_back(tone_verdict(apparatus_.camera, tracker_.tone()));
+  if (!no_board) all.push_back(sharpness_verdict(pictures_));
   all.push_back(jitter_verdict(pictures_));
   if (!apparatus_.effector.tags.empty()) {
     all.push_back(print_scale_verdict(apparatus_.effector, "effector scale", "effector"));

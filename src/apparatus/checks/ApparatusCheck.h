@@ -1,5 +1,6 @@
 // Examines a series of camera pictures and judges whether they suffice for an experiment: camera,
-// locked settings, rate, latency, light, print scale, board, jitter, effector, speed. Each verdict
+// locked settings, rate, latency, light, noise, sharpness, doubles, print scale, board, jitter,
+// effector, speed. Each verdict
 // states the finding and what was expected. Runs before a session and in `heft doctor`.
 #pragma once
 
@@ -63,6 +64,9 @@ using Pictures = std::vector<LookedAt>;
 std::vector<CheckResult> lock_verdicts(const CameraMode& mode);
 CheckResult rate_verdict(const Pictures& pictures, double wanted_rate_hz);
 CheckResult light_verdict(const Pictures& pictures);
+/// Of the board's edges; pictures without the board do not count.
+CheckResult sharpness_verdict(const Pictures& pictures);
+CheckResult noise_verdict(const Pictures& pictures);
 /// Second prints with the numbers of the board's or the effector's tags.
 CheckResult doubles_verdict(const Pictures& pictures);
 /// @param name of the result  @param what name of the body in messages

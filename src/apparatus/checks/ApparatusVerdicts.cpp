@@ -121,6 +121,27 @@ CheckResult doubles_verdict(const Pictures& pictures) {
                   100 * doubled)};
 }
 
+// The limits of blur and noise are twice those of the usual synthetic camera.
+CheckResult sharpness_verdict(const Pictures& pictures) {
+  constexpr double most_px = 1.2;
+  const double blur_px =
+      median(with_board(pictures), [](const LookedAt& seen) { return seen.tracked.blur_px; });
+  const std::string figure =
+      fmt::format("edges are blurred by {:.1f} px (expected {:g} at most)", blur_px, most_px);
+  if (blur_px <= most_px) return {CheckVerdict::ok, "sharpness", figure};
+  return {CheckVerdict::warning, "sharpness",
+          figure + "; focus the lens on the board, and shorten the exposure if things move"};
+}
+
+CheckResult noise_verdict(const Pictures& pictures) {
+  constexpr double most = 6;
+  const double noise = median(pictures, [](const LookedAt& seen) { return seen.tracked.noise; });
+  const std::string figure =
+      fmt::format("{:.1f} of 255 gray levels (expected {:g} at most)", noise, most);
+  if (noise <= most) return {CheckVerdict::ok, "noise", figure};
+  return {CheckVerdict::warning, "noise", figure + "; use more light and a lower gain"};
+}
+
 CheckResult light_verdict(const Pictures& pictures) {
   const double level = median(pictures, &LookedAt::brightness);
   const double white = median(pictures, &LookedAt::white_fraction);
