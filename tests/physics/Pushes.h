@@ -12,8 +12,21 @@
 
 namespace heft {
 
-inline const std::vector<std::string> every_bullet{"bullet-ea", "bullet-x", "bullet-lx"};
-inline const std::vector<std::string> every_solver{"bullet-ea", "bullet-x", "bullet-lx", "boxes"};
+/// The names of the simulators with which this holds, as their table says.
+template <typename Holds>
+std::vector<std::string> simulators_where(const Holds& holds) {
+  std::vector<std::string> names;
+  for (const SimulatorEntry& entry : simulators())
+    if (holds(entry)) names.emplace_back(entry.name);
+  return names;
+}
+
+/// Those that model every hand movement.
+inline const std::vector<std::string> every_solver = simulators_where(
+    [](const SimulatorEntry& entry) { return entry.for_sessions && entry.fit_for.several_cubes; });
+/// Those of one straight push.
+inline const std::vector<std::string> every_straight_one =
+    simulators_where([](const SimulatorEntry& entry) { return !entry.for_sessions; });
 
 /// A hand that stays where it is.
 inline auto held(const Pose& pose) {

@@ -12,10 +12,7 @@ namespace {
 constexpr double rate_hz = 240, relative = 0.02;
 
 std::vector<std::string> simulators_fit_for(bool Fitness::*kind) {
-  std::vector<std::string> names;
-  for (const SimulatorEntry& entry : simulators())
-    if (entry.fit_for.*kind) names.emplace_back(entry.name);
-  return names;
+  return simulators_where([&](const SimulatorEntry& entry) { return entry.fit_for.*kind; });
 }
 
 // How far the clone is behind the effector along a stroke, at the end of it.
