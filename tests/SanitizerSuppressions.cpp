@@ -15,7 +15,7 @@ extern "C" const char* __lsan_default_suppressions() {
 
 // OpenCV loads GDAL for its picture formats; GDAL takes two locks of its own in both orders when it
 // starts. It films with FFmpeg, and Pango looks for fonts in a thread of its own: code that is not
-// instrumented, whose locks nobody sees. Mesa draws in threads of its own.
+// instrumented, whose locks are not visible. Mesa draws in its own threads.
 extern "C" const char* __tsan_default_suppressions();
 extern "C" const char* __tsan_default_suppressions() {
   return "deadlock:libgdal\nrace:libavutil\nrace:libavcodec\nrace:libfontconfig\nrace:libglib\n"

@@ -105,7 +105,6 @@ std::vector<DetectedTag> Tracker::detect(TagDetector& detector, const Region& re
                                          EdgeSearch search) {
   const double start_s = monotonic_s();
   std::vector<DetectedTag> tags = detector.detect(gray_, region, search);
-  std::ranges::sort(tags, std::greater{}, &DetectedTag::decision_margin);
   std::ranges::stable_sort(tags, {}, &DetectedTag::id);
   result_.times.detect_s += monotonic_s() - start_s;
   return tags;
@@ -142,7 +141,7 @@ std::optional<BodyFit> Tracker::find_board() {
 }
 
 void Tracker::expect_picture() {
-  for (BodyFinder* finder : {&board_, &effector_}) finder->expect(noise_, tone_.curve());
+  for (BodyFinder* finder : {&board_, &effector_}) finder->expect(result_.noise, tone_.curve());
 }
 
 // Repeats the measurement of the board's edges until the learned tone curve no longer moves them.
@@ -265,10 +264,9 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
         image.width, image.height, camera_.width_px, camera_.height_px));
   gray_ = gray_of(image);
   board_family_tags_.reset();
-  noise_ = noise_of(gray_);
-  expect_picture();
   result_ = {};
-  result_.noise = noise_;
+  result_.noise = noise_of(gray_);
+  expect_picture();
   result_.effector_t_s = t_s;
   auto board = learn_tone(find_board());
   result_.n_foreign_tags = board_.n_foreign();

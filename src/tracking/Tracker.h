@@ -90,7 +90,6 @@ class Tracker {
   std::vector<TagDetector> detectors_;  ///< one, or the board's and the effector's
 
   // Of the current picture:
-  double noise_ = 0;  ///< of the picture
   Image gray_;
   std::optional<std::vector<DetectedTag>> board_family_tags_;
   TrackedPicture result_;

@@ -127,7 +127,7 @@ class Window(unittest.TestCase):
         """On a busy machine, too, which may fail the check of the picture rate."""
         command = [HEFT, "run", str(protocol), "--participant", "07", "--db", self.db,
                    "--seed", "5", "--purpose", "test", "--go-on", *options]
-        # In a process group of its own: one without a parent in the session cannot be suspended.
+        # A process group that has no parent in its session cannot be suspended.
         self.program = subprocess.Popen(command, env=self.screen.environment(), text=True,
                                         stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, process_group=0)
         return Person(self.screen, self.db, self.program)

@@ -133,7 +133,7 @@ BenchScene random_scene(Setting setting, std::uint64_t seed, int n) {
   scene.name = fmt::format("{} {} of seed {}", name_of(setting), n, seed);
   scene.scene.cubes = cubes_of(random, setting);
   scene.path = seen(random, hand_of(random, setting));
-  if (!has_one_answer(setting)) scene.scene.contact_compliance_m_per_n = 1e-4;
+  if (!has_one_answer(setting)) scene.scene.contact_compliance_m_per_n = random_compliance_m_per_n;
   const MassCurve gains({{0.015, 0.95}, {0.2, 0.6}, {0.8, 0.2}});
   const MassCurve limits_m_s({{0.015, 0.5}, {0.2, 0.15}, {0.8, 0.05}});
   if (setting == Setting::gain) Technique{"", Gain{gains}}.apply_to(scene.scene);

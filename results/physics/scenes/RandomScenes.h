@@ -82,12 +82,8 @@ constexpr bool has_one_answer(Setting setting) {
          setting != Setting::tower;
 }
 
-/// Whether the hand turns by up to 0.6 rad, pushes up to 30 mm beside the middle of a cube, or
-/// moves stacked cubes. In all other settings it sways, trembles and pushes within 4 mm of the
-/// middle of cubes on the table.
-constexpr bool loads_unevenly(Setting setting) {
-  return !has_one_answer(setting);
-}
+/// Of scenes with contacts that yield.
+inline constexpr double random_compliance_m_per_n = 1e-4;
 
 /// Poses a second of its path.
 int poses_hz_of(const BenchScene& random_scene);

@@ -125,8 +125,8 @@ bool runs_on_wall_clock(bool person, const TrackerEntry& tracker, const ViewEntr
 /// Name of the automatic choice of a simulator; the log has the name of the chosen one.
 inline constexpr std::string_view automatic = "auto";
 
-/// The simulator that models all movements of a person, at the lowest rate, at least the display's,
-/// that keeps the tolerance with every technique of the protocol. Ignores the protocol's rate.
+/// The simulator that models all movements of a person, at a rate that suffices for the fastest
+/// spring of the protocol's techniques, at least the display's. Ignores the protocol's rate.
 SimulatorPick resolve_auto(const Protocol& protocol);
 
 /// The named simulator at the protocol's rate; for `auto` the chosen one.

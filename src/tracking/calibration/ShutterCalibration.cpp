@@ -161,9 +161,8 @@ std::vector<std::string> doubts(const ShutterCalibration& calibration) {
                                 calibration.n_pictures));
   if (calibration.unsteadiness > most_unsteadiness)
     found.emplace_back(
-        "the board jumps from picture to picture instead of moving: the pictures are still views, "
-        "or "
-        "their times are wrong; film the board while you wave it");
+        "the board jumps from picture to picture instead of moving: the pictures are still "
+        "views, or their times are wrong; film the board while you wave it");
   if (!(calibration.sd_s < most_sd_s))
     found.push_back(fmt::format(
         "the read-out has a standard error of {:.1f} ms; wave the board faster, to and fro and up "

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tracking/pose/MarkerBody.h"
 #include "tracking/pose/PlanarPose.h"
@@ -50,12 +51,8 @@ double area_of(const std::array<Eigen::Vector2d, 4>& c) {
 double capped_cost(const std::vector<TagObservation>& tags, const Pose& pose) {
   double sum = 0;
   for (const TagObservation& tag : tags)
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Eigen::Vector3d p = pose * tag.corners_m[i];
-      const double off =
-          p.z() > 1e-3 ? tag.px_per_ray * (p.head<2>() / p.z() - tag.rays[i]).norm() : capped_px;
-      sum += std::min(off, capped_px) * std::min(off, capped_px);
-    }
+    for (std::size_t i = 0; i < 4; ++i)
+      sum += std::pow(std::min(tag.corner_off_px(i, pose), capped_px), 2);
   return sum;
 }
 
@@ -213,6 +210,12 @@ double pose_quality(const std::vector<TagObservation>& tags, const BodyFit& fit)
 
 bool TagObservation::covered() const {
   return std::ranges::any_of(edges, [](const Edge& edge) { return std::isinf(edge.sd_px); });
+}
+
+double TagObservation::corner_off_px(std::size_t corner, const Pose& camera_from_body) const {
+  const Eigen::Vector3d p = camera_from_body * corners_m[corner];
+  if (!(p.z() > 1e-3)) return std::numeric_limits<double>::infinity();
+  return px_per_ray * (p.head<2>() / p.z() - rays[corner]).norm();
 }
 
 TagObservation observe(const Intrinsics& camera, const Tag& tag, const MeasuredTag& measured,

@@ -36,6 +36,8 @@ struct TagObservation {
   double area_px2 = 0;
 
   bool covered() const;  ///< whether an edge carries no information
+  /// Distance of a measured corner from where the pose puts it; infinite behind the camera.
+  double corner_off_px(std::size_t corner, const Pose& camera_from_body) const;
 };
 
 /// A measured tag as an observation for the pose search.

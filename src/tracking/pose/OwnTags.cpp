@@ -23,11 +23,7 @@ bool has_doubles(const std::vector<TagObservation>& tags) {
 // Root mean square distance of a tag's corners from their places, at most own_px.
 double off_px(const TagObservation& tag, const Pose& pose) {
   double sum_px2 = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Eigen::Vector3d p = pose * tag.corners_m[i];
-    if (!(p.z() > 1e-3)) return own_px;
-    sum_px2 += (tag.px_per_ray * (p.head<2>() / p.z() - tag.rays[i])).squaredNorm() / 4;
-  }
+  for (std::size_t i = 0; i < 4; ++i) sum_px2 += std::pow(tag.corner_off_px(i, pose), 2) / 4;
   return std::min(own_px, std::sqrt(sum_px2));
 }
 
@@ -60,13 +56,15 @@ bool is_above(const std::optional<Pose>& camera_from_table, const Pose& camera_f
 std::vector<TagObservation> own_tags(const std::vector<TagObservation>& tags,
                                      const std::optional<Pose>& expected,
                                      const std::optional<Pose>& camera_from_table) {
+  const bool doubled = has_doubles(tags);
+  if (!doubled && !camera_from_table) return tags;
   std::vector<Pose> proposed;  // the better of each tag's two poses
   for (const TagObservation& tag : tags) {
     const auto poses = planar_poses(tag.corners_m, tag.rays);
     if (!poses.empty() && is_above(camera_from_table, poses.front()))
       proposed.push_back(poses.front());
   }
-  if (proposed.size() == tags.size() && !has_doubles(tags)) return tags;
+  if (proposed.size() == tags.size() && !doubled) return tags;
   std::vector<TagObservation> own;
   if (proposed.empty()) return own;
   const auto best = std::ranges::min_element(
