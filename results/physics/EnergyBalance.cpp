@@ -89,7 +89,7 @@ std::optional<EnergyBalance> energy_balance(const SceneTrack& track, const Bench
                         mean_square(from.clone.velocity.linear_m_s - hand_m_s,
                                     to.clone.velocity.linear_m_s - hand_m_s, clone_m_s - hand_m_s);
     for (std::size_t c = 0; c < scene.cubes.size(); ++c)
-      balance.rubbed_j += scene.friction * scene.gravity_m_s2 * scene.cubes[c].mass_kg *
+      balance.rubbed_j += scene.table_friction(c) * scene.gravity_m_s2 * scene.cubes[c].mass_kg *
                           way_m(from.cubes[c].pose, to.cubes[c].pose, scene.cubes[c].size_m);
     hand = next;
   }

@@ -23,7 +23,7 @@ TrialWorld::TrialWorld(const Protocol& protocol, const TrialPlan& plan)
 }
 
 void TrialWorld::rearrange(const TrialPlan& plan) {
-  scene_ = scene_of(protocol_, plan.condition, plan.masses_g);
+  scene_ = scene_of(protocol_, plan.condition, plan.masses_g, plan.table_friction);
   contacts_.assign(plan.masses_g.size(), {});
   drive_.reset();
   reset_requested_ = false;

@@ -21,18 +21,6 @@ Refusal column_refusal(const ActionSpec& spec, const Action& action) {
   return std::nullopt;
 }
 
-std::vector<CubeRow> fresh_cubes(int attempt_index, const TrialPlan& plan) {
-  std::vector<CubeRow> cubes;
-  for (const double mass_g : plan.masses_g) {
-    CubeRow cube;
-    cube.attempt_index = attempt_index;
-    cube.slot = static_cast<int>(cubes.size()) + 1;
-    cube.mass_g = mass_g;
-    cubes.push_back(cube);
-  }
-  return cubes;
-}
-
 }  // namespace
 
 ScreenState screen_of(const TaskTrial& trial) {

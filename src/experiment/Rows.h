@@ -109,8 +109,19 @@ struct CubeRow {
   double contact_s = 0;
   std::optional<double> first_contact_s, last_contact_s;
   int n_resets = 0;
-  std::optional<double> max_push_displacement_m{}, peak_lag_m{};
+  std::optional<double> max_push_displacement_m{}, peak_lag_m{}, table_friction{};
 };
+/// The cubes of a plan, untouched.
+inline std::vector<CubeRow> fresh_cubes(int attempt_index, const TrialPlan& plan) {
+  std::vector<CubeRow> cubes(plan.masses_g.size());
+  for (std::size_t i = 0; i < cubes.size(); ++i) {
+    cubes[i].attempt_index = attempt_index;
+    cubes[i].slot = static_cast<int>(i) + 1;
+    cubes[i].mass_g = plan.masses_g[i];
+    if (!plan.table_friction.empty()) cubes[i].table_friction = plan.table_friction[i];
+  }
+  return cubes;
+}
 template <typename Row, typename Visit>
 requires RowOf<Row, CubeRow>
 void visit_columns(Row& row, Visit&& visit) {
@@ -125,6 +136,9 @@ void visit_columns(Row& row, Visit&& visit) {
         row.last_contact_s);
   visit(LogColumn{"n_resets", "", "number of resets to the start position", ">= 0"}, row.n_resets);
   visit_push_columns(row, visit);
+  visit(LogColumn{"table_friction", "",
+                  "friction between the cube and the table; NULL: the protocol's friction", ">= 0"},
+        row.table_friction);
 }
 
 struct AnswerRow {

@@ -56,9 +56,10 @@ struct TrialPlan {
   std::optional<double> level_g;             ///< comparison - reference, as presented
   bool is_catch = false;
   bool is_practice = false;
-  std::vector<double> masses_g;       ///< by slot, leftmost first
-  std::optional<int> reference_slot;  ///< comparisons only; slots count from 1
-  int n_reshuffles = 0;               ///< how often the cubes were shuffled again in this attempt
+  std::vector<double> masses_g;        ///< by slot, leftmost first
+  std::vector<double> table_friction;  ///< of each cube; empty: the protocol's friction
+  std::optional<int> reference_slot;   ///< comparisons only; slots count from 1
+  int n_reshuffles = 0;                ///< how often the cubes were shuffled again in this attempt
 
   int n_slots() const { return static_cast<int>(masses_g.size()); }
 };

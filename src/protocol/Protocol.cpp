@@ -232,7 +232,7 @@ Stage stage_of(const Protocol& protocol, int n) {
 }
 
 Scene scene_of(const Protocol& protocol, const std::string& technique,
-               const std::vector<double>& masses_g) {
+               const std::vector<double>& masses_g, const std::vector<double>& table_friction) {
   Scene scene;
   scene.gravity_m_s2 = protocol.gravity_m_s2;
   scene.friction = protocol.friction_is == FrictionIs::per_body
@@ -245,6 +245,8 @@ Scene scene_of(const Protocol& protocol, const std::string& technique,
   const auto slots_m = slot_positions(protocol.layout, static_cast<int>(masses_g.size()));
   for (std::size_t i = 0; i < masses_g.size(); ++i)
     scene.cubes.push_back({masses_g[i] / 1000, Eigen::Vector3d::Constant(size_m), slots_m[i], 0});
+  for (std::size_t i = 0; i < table_friction.size(); ++i)
+    scene.cubes.at(i).table_friction = table_friction[i];
   return scene;
 }
 

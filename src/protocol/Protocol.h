@@ -101,9 +101,10 @@ std::vector<Eigen::Vector3d> slot_positions(const Layout& layout, int n);
 /// The visible geometry of a trial with n cubes.
 Stage stage_of(const Protocol& protocol, int n);
 
-/// The physics of a trial: the name of its technique; masses in grams, leftmost first.
+/// The physics of a trial: the name of its technique; masses in grams and friction on the table,
+/// leftmost first. @param table_friction empty: the protocol's friction
 Scene scene_of(const Protocol& protocol, const std::string& technique,
-               const std::vector<double>& masses_g);
+               const std::vector<double>& masses_g, const std::vector<double>& table_friction = {});
 
 /// @param text contents of the file  @param file its name, for messages
 /// @param settings changes to it

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <span>
-
 namespace heft {
 
 int total_of(const std::vector<TechniqueTrials>& trials) {
@@ -13,8 +10,17 @@ int total_of(const std::vector<TechniqueTrials>& trials) {
   return n;
 }
 
-ConfigMistakes mistakes_in_masses(const std::vector<double>& masses_g, std::size_t fewest,
-                                  std::size_t most, std::string_view why) {
+void add_friction(Choices& choices, const std::string& block, const std::vector<double>& masses_g,
+                  const std::vector<double>& table_friction) {
+  std::string text;
+  for (std::size_t i = 0; i < table_friction.size(); ++i)
+    text += fmt::format("{}{:g} g: {:g}", i > 0 ? ", " : "", masses_g[i], table_friction[i]);
+  if (!text.empty()) choices.emplace_back("friction on the table in " + block, text);
+}
+
+ConfigMistakes mistakes_in_cubes(const std::vector<double>& masses_g,
+                                 const std::vector<double>& table_friction, std::size_t fewest,
+                                 std::size_t most, std::string_view why, bool or_friction) {
   ConfigMistakes mistakes;
   const std::size_t n = masses_g.size();
   const std::string range =
@@ -22,12 +28,22 @@ ConfigMistakes mistakes_in_masses(const std::vector<double>& masses_g, std::size
   if (n < fewest || n > most)
     mistakes.push_back(
         {{"masses_g"}, fmt::format("masses_g has {} masses", n), range + ": one a cube"});
+  if (!table_friction.empty() && table_friction.size() != n)
+    mistakes.push_back(
+        {{"table_friction", "masses_g"},
+         fmt::format("table_friction has {} values for {} masses", table_friction.size(), n),
+         "one for each mass"});
+  or_friction = or_friction && table_friction.size() == n;
   for (std::size_t i = 0; i < n; ++i)
-    if (std::ranges::count(std::span(masses_g).first(i), masses_g[i]) > 0)
-      mistakes.push_back({{"masses_g"},
-                          fmt::format("masses_g has {} g twice", masses_g[i]),
-                          fmt::format("different masses: {}", why),
-                          i});
+    for (std::size_t j = 0; j < i; ++j)
+      if (masses_g[j] == masses_g[i] && !(or_friction && table_friction[j] != table_friction[i])) {
+        mistakes.push_back(
+            {{"masses_g"},
+             fmt::format("masses_g has {} g twice", masses_g[i]),
+             fmt::format("different masses{}: {}", or_friction ? " or table_friction" : "", why),
+             i});
+        break;
+      }
   return mistakes;
 }
 

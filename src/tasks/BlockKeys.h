@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/SimulationChoices.h"
@@ -39,9 +40,22 @@ TrialsOfEachMass(Trials&) -> TrialsOfEachMass<Trials>;
 /// More than any session needs; bounds the cost of drawing an order.
 inline constexpr int most_trials = 500;
 
-/// Checks masses that must all differ.
-/// @param why reason why equal masses are refused
-ConfigMistakes mistakes_in_masses(const std::vector<double>& masses_g, std::size_t fewest,
-                                  std::size_t most, std::string_view why);
+/// Key of blocks whose cubes may differ in friction.
+inline constexpr ConfigKey table_friction_key{
+    "table_friction", "of the cube of each mass with the table; default: physics.friction"};
+
+/// What a block chooses for its participants to do, by topic, for reports.
+using Choices = std::vector<std::pair<std::string, std::string>>;
+
+/// Adds the friction of the block's cubes, if they have their own.
+void add_friction(Choices& choices, const std::string& block, const std::vector<double>& masses_g,
+                  const std::vector<double>& table_friction);
+
+/// Checks that there is a friction for each mass, and that masses differ.
+/// @param why reason why equal ones are refused
+/// @param or_friction cubes of one mass may differ in friction instead
+ConfigMistakes mistakes_in_cubes(const std::vector<double>& masses_g,
+                                 const std::vector<double>& table_friction, std::size_t fewest,
+                                 std::size_t most, std::string_view why, bool or_friction = false);
 
 }  // namespace heft

@@ -72,8 +72,9 @@ int Estimation::Block::n_trials() const {
 }
 
 ConfigMistakes Estimation::Block::check() const {
-  ConfigMistakes mistakes = mistakes_in_masses(masses_g, 1, most_trials,
-                                               "trials_per_mass sets the number of trials of each");
+  ConfigMistakes mistakes =
+      mistakes_in_cubes(masses_g, table_friction, 1, most_trials,
+                        "trials_per_mass sets the number of trials of each", true);
   const auto add = [&](std::string_view key, std::string what, std::string expected) {
     mistakes.push_back({{key}, std::move(what), std::move(expected)});
   };
@@ -108,7 +109,9 @@ std::vector<std::pair<std::string, std::string>> Estimation::Block::choices() co
   std::string text = scale;
   if (low && high) text += fmt::format(", {:g} to {:g}", *low, *high);
   if (modulus) text += fmt::format(", {:g} g is {:g}", modulus->mass_g, modulus->value);
-  return {{"scale of " + name, text}};
+  Choices choices{{"scale of " + name, text}};
+  add_friction(choices, name, masses_g, table_friction);
+  return choices;
 }
 
 std::optional<std::string> Estimation::Block::questionnaire() const {
@@ -126,9 +129,13 @@ void Estimation::Block::read_question(const std::map<std::string, Questionnaire>
 }
 
 Estimation::Run::Run(const Block& block, std::uint64_t seed) : block_(block) {
-  for (const double mass_g : block.masses_g)
+  for (std::size_t i = 0; i < block.masses_g.size(); ++i) {
+    std::vector<double> friction;
+    if (!block.table_friction.empty()) friction = {block.table_friction[i]};
     for (const TechniqueTrials& some : block.trials)
-      order_.insert(order_.end(), static_cast<std::size_t>(some.trials), {mass_g, some.technique});
+      order_.insert(order_.end(), static_cast<std::size_t>(some.trials),
+                    {block.masses_g[i], friction, some.technique});
+  }
   RandomStream(seed, "estimation order/" + block.name).shuffle(std::span(order_));
 }
 
@@ -143,6 +150,7 @@ TrialPlan Estimation::Run::plan(const TrialKey& key) const {
   const Stimulus& stimulus = order_.at(static_cast<std::size_t>(n_before));
   TrialPlan plan = key.plan(block_.name, task.name, stimulus.technique);
   plan.masses_g = {stimulus.mass_g};
+  plan.table_friction = stimulus.table_friction;
   return plan;
 }
 

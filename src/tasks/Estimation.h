@@ -45,7 +45,8 @@ struct Estimation {
   struct Block {
     using OfTask = Estimation;
     std::string name;
-    std::vector<double> masses_g;  ///< all different; shown in random order
+    std::vector<double> masses_g;        ///< shown in random order; equal ones differ in friction
+    std::vector<double> table_friction;  ///< of each; empty: the protocol's friction
     std::vector<TechniqueTrials> trials{{spring_technique, 1}};  ///< per mass
     std::string scale = "number";     ///< "number", "slider" (0 to 100) or QUESTIONNAIRE.QUESTION
     std::optional<double> low, high;  ///< number: range of valid answers
@@ -56,6 +57,7 @@ struct Estimation {
     template <typename Visit>
     void visit_keys(Visit&& visit) {
       visit(ConfigKey{"masses_g", "one per trial, in g", true}, masses_g, above_zero);
+      visit(table_friction_key, table_friction, zero_or_more);
       visit(ConfigKey{"trials", "per mass"}, TrialsOfEachMass{trials});
       visit(ConfigKey{"scale", "number, slider or NAME.KEY", true}, scale);
       visit(ConfigKey{"low", "smallest number"}, low, any_number);
@@ -89,6 +91,7 @@ struct Estimation {
    private:
     struct Stimulus {
       double mass_g = 0;
+      std::vector<double> table_friction;  // of the one cube; empty: the protocol's
       std::string technique;
     };
     Block block_;

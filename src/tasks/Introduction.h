@@ -43,7 +43,7 @@ struct Introduction {
       visit(ConfigKey{"wrong_answer", "cubes after a wrong answer"}, wrong_answer);
     }
     ConfigMistakes check() const {
-      return mistakes_in_masses(masses_g, 2, 2, "equal ones have no right answer");
+      return mistakes_in_cubes(masses_g, {}, 2, 2, "equal ones have no right answer");
     }
     std::vector<std::pair<std::string, std::string>> choices() const {
       return {{"wrong introduction answer", std::string(name_of(wrong_answer))}};

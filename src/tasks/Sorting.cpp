@@ -84,8 +84,8 @@ Answer answer_of(std::span<const double> values, bool first_step_corrected) {
 }  // namespace
 
 ConfigMistakes Sorting::Block::check() const {
-  auto mistakes =
-      mistakes_in_masses(masses_g, 2, FrameRow::most_cubes, "equal ones have no right answer");
+  auto mistakes = mistakes_in_cubes(masses_g, table_friction, 2, FrameRow::most_cubes,
+                                    "equal ones have no right answer");
   if (const int n = n_trials(); n < 1 || n > most_trials)
     mistakes.push_back({{"trials"},
                         fmt::format("the block has {} trials", n),
@@ -111,9 +111,20 @@ std::vector<std::pair<std::string, std::string>> Sorting::Block::choices() const
     counts += fmt::format("{}{}", counts.empty() ? "" : " and ", n);
     names += (names.empty() ? "" : " and ") + technique;
   }
-  return {{"sorting orders", std::string(name_of(orders))},
-          {names, fmt::format("{} shuffled, longest run {}", counts,
-                              max_run > 0 ? fmt::format("{}", max_run) : "any")}};
+  Choices choices{{"sorting orders", std::string(name_of(orders))},
+                  {names, fmt::format("{} shuffled, longest run {}", counts,
+                                      max_run > 0 ? fmt::format("{}", max_run) : "any")}};
+  add_friction(choices, name, masses_g, table_friction);
+  return choices;
+}
+
+std::vector<double> Sorting::Block::friction_in(const std::vector<double>& order) const {
+  std::vector<double> by_slot;
+  for (const double mass_g : order)
+    if (!table_friction.empty())
+      by_slot.push_back(table_friction[static_cast<std::size_t>(
+          std::ranges::find(masses_g, mass_g) - masses_g.begin())]);
+  return by_slot;
 }
 
 std::span<const std::string_view> Sorting::labels_for(int n_cubes) {
@@ -158,6 +169,7 @@ TrialPlan Sorting::Run::plan(const TrialKey& key) const {
     plan.masses_g = block_.masses_g;
     key.slots().shuffle(std::span(plan.masses_g));
   }
+  plan.table_friction = block_.friction_in(plan.masses_g);
   return plan;
 }
 

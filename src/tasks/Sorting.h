@@ -42,10 +42,12 @@ struct Sorting {
     std::vector<TechniqueTrials> trials{{coupled_technique, 5}, {spring_technique, 5}};
     int max_run = 0;  ///< longest run of one technique; 0: no limit
     SortingOrders orders = SortingOrders::random;
+    std::vector<double> table_friction{};  ///< of the cube of each mass; empty: the protocol's
 
     template <typename Visit>
     void visit_keys(Visit&& visit) {
       visit(ConfigKey{"masses_g", "of a trial's cubes, in g", true}, masses_g, above_zero);
+      visit(table_friction_key, table_friction, zero_or_more);
       visit(ConfigKey{"trials", "of each technique"}, trials);
       visit(ConfigKey{"max_run", "longest run of one technique; 0: no limit"}, max_run,
             WholeRange{});
@@ -56,6 +58,8 @@ struct Sorting {
     double expected_trials() const { return total_of(trials); }
     int n_trials() const { return total_of(trials); }
     int most_cubes() const { return static_cast<int>(masses_g.size()); }
+    /// By slot. @param order the block's masses, by slot
+    std::vector<double> friction_in(const std::vector<double>& order) const;
   };
   struct Offer {
     std::vector<std::optional<Label>> labels;  ///< assigned so far, by slot

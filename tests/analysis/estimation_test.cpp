@@ -84,6 +84,37 @@ TEST(Estimation, WhoGaveNoNumbersAboveZeroIsCountedAndTheReasonGiven) {
   EXPECT_THAT(readable(summary), HasSubstr("1 of 3 participants have none: no number above 0"));
 }
 
+// Numbers proportional to the friction times the square of the mass.
+TEST(Estimation, ExponentsOfMassAndFrictionAreOfOneRegression) {
+  SessionData data = session(1, "a");
+  const auto add = [&](double mass_g, double friction, double number) {
+    add_number(data, mass_g, number).cubes[0].table_friction = friction;
+  };
+  add(100, 0.2, 1);
+  add(200, 0.2, 4);
+  add(200, 0.8, 16);
+  const Summary summary = summarized({data});
+  EXPECT_NEAR(*figure(summary, "estimation_exponent").value, 2, 1e-9);
+  EXPECT_NEAR(*figure(summary, "estimation_friction_exponent").value, 1, 1e-9);
+  const auto mean_of = [&](const char* friction) {
+    return *figure(summary, "estimation_mean", {{"mass_g", "200"}, {"table_friction", friction}})
+                .value;
+  };
+  EXPECT_EQ(mean_of("0.2"), 4);
+  EXPECT_EQ(mean_of("0.8"), 16);
+  EXPECT_THAT(readable(summary), HasSubstr("(of friction: 1.00)"));
+}
+
+TEST(Estimation, MassAndFrictionThatVaryTogetherAreNotIdentifiable) {
+  SessionData data = session(1, "a");
+  add_number(data, 100, 10).cubes[0].table_friction = 0.8;
+  add_number(data, 200, 10).cubes[0].table_friction = 0.4;
+  add_number(data, 400, 10).cubes[0].table_friction = 0.2;
+  const Summary summary = summarized({data});
+  EXPECT_FALSE(figure(summary, "estimation_exponent").value);
+  EXPECT_THAT(figure(summary, "estimation_exponent").why, HasSubstr("varied together"));
+}
+
 TEST(Estimation, OfOneMassThereIsNoExponent) {
   SessionData data = session(1, "a");
   add_number(data, 100, 5);

@@ -37,6 +37,35 @@ TEST(EverySimulator, OfStraightPushesLagsByTheForceOfFriction) {
     }
 }
 
+TEST(EverySimulator, OfStraightPushesLagsByTheFrictionOfTheCube) {
+  for (const std::string& name : simulators_fit_for(&Fitness::straight))
+    for (const double friction : {0.2, 1.2}) {
+      Scene scene = one_cube(0.2);
+      scene.cubes[0].table_friction = friction;
+      const double closed_m = steady_lag_m(friction, 0.2, 50);
+      const double found_m = lag_m(name, scene, {.speed_m_s = 0.05, .length_m = 0.12 + closed_m});
+      EXPECT_NEAR(found_m, closed_m, relative * closed_m) << name << ", friction " << friction;
+      const double equal_m = lag_m(name, one_cube(0.2 * friction / 0.8),
+                                   {.speed_m_s = 0.05, .length_m = 0.12 + closed_m});
+      EXPECT_NEAR(found_m, equal_m, 0.01 * closed_m) << name << ", a mass of the same force";
+    }
+}
+
+TEST(EverySimulator, OfSeveralCubesHasTheFrictionOfEach) {
+  for (const std::string& name : simulators_fit_for(&Fitness::several_cubes)) {
+    Scene scene = one_cube(0.1);
+    scene.cubes.push_back(cube_of(0.2, 0.0355));
+    // Friction between the cubes would shift weight from one to the other.
+    scene.friction = 0;
+    scene.cubes[0].table_friction = 0.8;
+    scene.cubes[1].table_friction = 0.2;
+    const double closed_m = steady_lag_m(0.8, 0.1, 50) + steady_lag_m(0.2, 0.2, 50);
+    EXPECT_NEAR(lag_m(name, scene, {.speed_m_s = 0.05, .length_m = 0.12 + closed_m}), closed_m,
+                relative * closed_m)
+        << name;
+  }
+}
+
 TEST(EverySimulator, OfACoupledCloneKeepsItOnTheEffectorWhateverTheMass) {
   for (const std::string& name : simulators_fit_for(&Fitness::coupled)) {
     std::vector<double> ends_m;

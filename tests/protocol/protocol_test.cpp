@@ -226,6 +226,15 @@ TEST(Scene, HasTheProtocolsContactsUnlessATechniqueHasItsOwn) {
   EXPECT_EQ(scene_of(protocol, "rigid", {}).contact_compliance_m_per_n, 0);
 }
 
+TEST(Scene, CubesMayHaveTheirOwnFrictionOnTheTable) {
+  const Protocol protocol;
+  const Scene scene = scene_of(protocol, "C2", {100, 200}, {0.4, 0.2});
+  EXPECT_EQ(scene.table_friction(0), 0.4);
+  EXPECT_EQ(scene.table_friction(1), 0.2);
+  EXPECT_EQ(scene.friction, 0.8);
+  EXPECT_EQ(scene_of(protocol, "C2", {100}).table_friction(0), 0.8);
+}
+
 TEST(Scene, MultipliesFrictionGivenPerBody) {
   Protocol protocol;
   EXPECT_DOUBLE_EQ(scene_of(protocol, "C2", {}).friction, 0.8);

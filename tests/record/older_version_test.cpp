@@ -45,7 +45,7 @@ class OlderVersion : public testing::TestWithParam<int> {
   std::string log_ = folder_.file("log.db");
   std::string older_file_ = fmt::format("{}.v{}", log_, GetParam());
 };
-INSTANTIATE_TEST_SUITE_P(Versions, OlderVersion, testing::Values(5, 6, 7),
+INSTANTIATE_TEST_SUITE_P(Versions, OlderVersion, testing::Values(5, 6, 7, 8),
                          [](const auto& version) { return fmt::format("v{}", version.param); });
 
 TEST_P(OlderVersion, IsUpgradedAndOlderFileIsKept) {
@@ -175,7 +175,7 @@ TEST_P(OlderVersion, BeforeOldestIsRefusedUnchanged) {
     const std::string bytes = read_text_file(log_);
     const auto is_explained =
         AllOf(HasSubstr(log_), HasSubstr(fmt::format("a log of version {}", outdated)),
-              HasSubstr("reads versions 5 to 8"), HasSubstr("the version of heft that wrote it"));
+              HasSubstr("reads versions 5 to 9"), HasSubstr("the version of heft that wrote it"));
     EXPECT_THAT(failure([&] { LogReader{log_}; }), is_explained);
     EXPECT_THAT(failure([&] { SessionLog::reopen(log_, 1); }), is_explained);
     EXPECT_THAT(failure([&] { SessionLog::start(log_, header_of("P01")); }), is_explained);
@@ -190,7 +190,7 @@ TEST_P(OlderVersion, SessionOfUnsupportedVersionIsRefused) {
   sql("UPDATE session SET log_version = 4 WHERE session_id = 2");
   const LogReader reader(log_);
   const auto is_explained = AllOf(HasSubstr(log_), HasSubstr("session 2"), HasSubstr("version 4"),
-                                  HasSubstr("reads versions 5 to 8"));
+                                  HasSubstr("reads versions 5 to 9"));
   EXPECT_THAT(failure([&] { reader.session(2); }), is_explained);
   EXPECT_THAT(failure([&] { reader.events(2); }), is_explained);
   EXPECT_THAT(failure([&] { reader.sessions(); }), is_explained);

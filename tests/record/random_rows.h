@@ -176,6 +176,8 @@ inline TrialRow any_trial(int attempt_index) {
   plan.n_reshuffles = count();
   plan.masses_g.resize(static_cast<std::size_t>(*rc::gen::inRange(0, 7)));
   for (double& mass : plan.masses_g) mass = mass_g();
+  if (flag()) plan.table_friction.resize(plan.masses_g.size());
+  for (double& friction : plan.table_friction) friction = time_s();
   plan.reference_slot = maybe(slot);
   row.status = any_of<TrialStatus>();
   row.void_reason = maybe(words);
@@ -195,16 +197,19 @@ inline TrialRow any_trial(int attempt_index) {
 }
 
 inline CubeRow any_cube(const TrialRow& trial, int slot) {
+  const auto index = static_cast<std::size_t>(slot - 1);
+  const std::vector<double>& friction = trial.plan.table_friction;
   return {trial.attempt_index,
           slot,
-          trial.plan.masses_g.at(static_cast<std::size_t>(slot - 1)),
+          trial.plan.masses_g.at(index),
           count(),
           time_s(),
           maybe(time_s),
           maybe(time_s),
           count(),
           maybe(time_s),
-          maybe(time_s)};
+          maybe(time_s),
+          friction.empty() ? std::nullopt : std::optional(friction.at(index))};
 }
 
 inline FrameRow any_frame(int attempt_index) {

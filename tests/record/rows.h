@@ -77,13 +77,15 @@ inline std::string text(const TrialRow& t) {
   const TrialPlan& p = t.plan;
   return joined(t.attempt_index, t.setup_index, p.trial_number, p.attempt, p.block, p.task,
                 p.condition, p.staircase, p.reference_g, p.level_g, p.is_catch, p.is_practice,
-                p.masses_g, p.reference_slot, p.n_reshuffles, t.status, t.void_reason, t.outcome,
-                t.chosen_slot, t.choice_correct, t.value, t.started_s, t.shown_s, t.first_contact_s,
-                t.first_choice_s, t.validated_s, t.ended_s, t.paused_s, t.lost_s);
+                p.masses_g, p.table_friction, p.reference_slot, p.n_reshuffles, t.status,
+                t.void_reason, t.outcome, t.chosen_slot, t.choice_correct, t.value, t.started_s,
+                t.shown_s, t.first_contact_s, t.first_choice_s, t.validated_s, t.ended_s,
+                t.paused_s, t.lost_s);
 }
 inline std::string text(const CubeRow& c) {
   return joined(c.attempt_index, c.slot, c.mass_g, c.n_pushes, c.contact_s, c.first_contact_s,
-                c.last_contact_s, c.n_resets, c.max_push_displacement_m, c.peak_lag_m);
+                c.last_contact_s, c.n_resets, c.max_push_displacement_m, c.peak_lag_m,
+                c.table_friction);
 }
 inline std::string text(const AnswerRow& a) {
   return joined(a.attempt_index, a.t_s, a.action, a.slot, a.label, a.value);

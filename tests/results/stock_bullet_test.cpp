@@ -37,6 +37,13 @@ std::string error_of(const std::string& name, double rate_hz) {
   return "";
 }
 
+TEST(StockBullet, RefusesCubesWithTheirOwnFriction) {
+  Scene scene = one_cube(0.2);
+  scene.cubes[0].table_friction = 0.4;
+  for (const std::string& name : variants)
+    EXPECT_THROW(make_simulator(name)->reset(scene, steady.at(0)), OutsideModel) << name;
+}
+
 TEST(StockBullet, EveryVariantWarnsOfItself) {
   for (const std::string& name : variants)
     EXPECT_FALSE(simulator_named(name).warning.empty()) << name;

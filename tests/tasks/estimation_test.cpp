@@ -57,6 +57,25 @@ TEST(Estimation, TrialsAreBalancedInSeededOrder) {
   EXPECT_NE(masses(7), masses(8));
 }
 
+TEST(Estimation, CubesOfOneMassMayDifferInFriction) {
+  Estimation::Block block = block_of_numbers();
+  block.masses_g = {100, 100, 400};
+  EXPECT_FALSE(block.check().empty());
+  block.table_friction = {0.8, 0.2, 0.2};
+  EXPECT_THAT(block.check(), IsEmpty());
+  std::map<std::pair<double, double>, int> counts;
+  for (const TrialPlan& plan : plans(block, 7)) {
+    ASSERT_EQ(plan.table_friction.size(), 1u);
+    ++counts[{plan.masses_g[0], plan.table_friction[0]}];
+  }
+  using Counts = std::map<std::pair<double, double>, int>;
+  EXPECT_EQ(counts, (Counts{{{100, 0.8}, 3}, {{100, 0.2}, 3}, {{400, 0.2}, 3}}));
+  block.table_friction = {0.2, 0.2, 0.2};
+  EXPECT_THAT(block.check().at(0).expected, HasSubstr("different masses or table_friction"));
+  block.table_friction = {0.2, 0.8};
+  EXPECT_THAT(block.check().at(0).expected, HasSubstr("one for each mass"));
+}
+
 TEST(Estimation, StandardComesFirstAsPractice) {
   Estimation::Block block = block_of_numbers();
   block.modulus = {200, 10};

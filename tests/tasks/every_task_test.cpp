@@ -2,7 +2,9 @@
 // judged, exported. Each needs a shipped protocol. Screens are tested in tests/view.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "SourceFolder.h"
 #include "base/Error.h"
@@ -169,6 +171,29 @@ TEST_P(EveryTask, IsPresentedAgainAfterVeto) {
 
 INSTANTIATE_TEST_SUITE_P(Each, EveryTask, ::testing::ValuesIn(words_of<Task>()),
                          [](const auto& task) { return std::string(task.param); });
+
+// Mass and friction varied apart: in the log, in the lag that is displayed, and in a replay.
+TEST(OwnFriction, OfCubesIsLoggedDisplayedAndReplayed) {
+  const StoredSession stored(testing::shipped_protocol("examples/friction"), "simulated", 5);
+  const LogReader& reader = stored.reader();
+  EXPECT_FALSE(verify_session(reader, stored.id(), [](double) {}).first);
+  std::map<int, std::string> tasks;
+  for (const TrialRow& trial : reader.trials(stored.id())) {
+    tasks[trial.attempt_index] = trial.plan.task;
+    const bool own = !trial.plan.is_practice && trial.plan.task != "introduction";
+    EXPECT_EQ(trial.plan.table_friction.size(), own ? trial.plan.masses_g.size() : 0);
+  }
+  std::map<int, std::vector<double>> lags_mm;  // by friction times mass
+  for (const CubeRow& cube : reader.cubes(stored.id())) {
+    if (!cube.table_friction || !cube.peak_lag_m) continue;
+    const double product_g = *cube.table_friction * cube.mass_g;
+    if (tasks[cube.attempt_index] == "sorting") EXPECT_NEAR(product_g, 80, 1e-9);
+    lags_mm[static_cast<int>(std::lround(product_g))].push_back(1e3 * *cube.peak_lag_m);
+  }
+  ASSERT_TRUE(lags_mm.contains(20) && lags_mm.contains(80) && lags_mm.contains(320));
+  EXPECT_LT(std::ranges::max(lags_mm[20]), std::ranges::min(lags_mm[80]));
+  EXPECT_LT(std::ranges::max(lags_mm[80]), std::ranges::min(lags_mm[320]));
+}
 
 }  // namespace
 }  // namespace heft

@@ -45,6 +45,27 @@ TEST(SortingTrial, IsCorrectIfLabelsMatchMasses) {
   }
 }
 
+TEST(SortingRun, FrictionGoesWithTheCubeOfItsMass) {
+  Sorting::Block block;
+  block.name = "sorting";
+  block.masses_g = {100, 200, 400};
+  block.table_friction = {0.8, 0.4, 0.2};
+  EXPECT_TRUE(block.check().empty());
+  std::set<std::vector<double>> orders;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const TrialPlan plan = Sorting::Run(block, seed).plan({seed, 1, 1});
+    orders.insert(plan.masses_g);
+    ASSERT_EQ(plan.table_friction.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_DOUBLE_EQ(plan.masses_g[i] * plan.table_friction[i], 80);
+  }
+  EXPECT_GT(orders.size(), 3u);
+  block.table_friction.pop_back();
+  EXPECT_FALSE(block.check().empty());
+  block.table_friction.clear();
+  EXPECT_TRUE(Sorting::Run(block, 1).plan({1, 1, 1}).table_friction.empty());
+}
+
 TEST(SortingTrial, UsedLabelMovesAndCanBeRemoved) {
   Sorting::Trial trial = trial_of({1, 2, 3});
   trial.take({"label", 1, "heaviest"});

@@ -97,6 +97,7 @@ class OdeSimulator : public DecouplingSimulator {
   void touch(dGeomID a, dGeomID b, double h_s);
   void give(dContact& contact, dBodyID a, dBodyID b, double h_s) const;
   void rub(dContact& contact, double slip_m_s, double load_n) const;
+  double table_friction(dGeomID box) const;
   double inverse_mass_per_kg(const dContactGeom& at, dBodyID body) const;
   Vector3d relative_velocity(const dContactGeom& at, dBodyID a, dBodyID b) const;
   Vector3d slip(const dContactGeom& at, dBodyID a, dBodyID b) const;
@@ -249,7 +250,7 @@ void OdeSimulator::give(dContact& contact, dBodyID a, dBodyID b, double h_s) con
 // four points could not change its center of rotation. The limit uses the current load; ODE's
 // dContactApprox1 uses the load without friction.
 void OdeSimulator::rub(dContact& contact, double slip_m_s, double load_n) const {
-  const double limit_n = scene_.friction * load_n;
+  const double limit_n = contact.surface.mu * load_n;
   contact.surface.mode &= ~dContactApprox1;
   contact.surface.mode |= dContactSlip1 | dContactSlip2;
   contact.surface.mu = limit_n;
@@ -275,12 +276,18 @@ void flatten(std::span<dContact> contacts) {
   }
 }
 
+double OdeSimulator::table_friction(dGeomID box) const {
+  const auto index = static_cast<std::size_t>(std::ranges::find(boxes_, box) - boxes_.begin());
+  return index == 0 ? scene_.friction : scene_.table_friction(index - 1);
+}
+
 // ODE's friction pyramid equals Coulomb's disk if one of its axes is along the slip.
 void OdeSimulator::touch(dGeomID a, dGeomID b, double h_s) {
   std::array<dContact, 8> contacts{};
   const int n = dCollide(a, b, 8, &contacts[0].geom, sizeof(dContact));
   if (gives() && b != table_) flatten({contacts.data(), static_cast<std::size_t>(n)});
   const dBodyID body_a = dGeomGetBody(a), body_b = dGeomGetBody(b);
+  const double friction = b == table_ ? table_friction(a) : scene_.friction;
   for (int i = 0; i < n; ++i) {
     dContact& contact = contacts[static_cast<std::size_t>(i)];
     const Vector3d normal(contact.geom.normal[0], contact.geom.normal[1], contact.geom.normal[2]);
@@ -291,7 +298,7 @@ void OdeSimulator::touch(dGeomID a, dGeomID b, double h_s) {
     along.normalize();
     for (std::size_t j = 0; j < 3; ++j) contact.fdir1[j] = along[static_cast<Eigen::Index>(j)];
     contact.surface.mode = dContactApprox1 | dContactFDir1;
-    contact.surface.mu = scene_.friction;
+    contact.surface.mu = friction;
     if (gives()) give(contact, body_a, body_b, h_s);
     dJointAttach(dJointCreateContact(world_, contacts_, &contact), body_a, body_b);
   }

@@ -46,7 +46,8 @@ std::string clone_text(const Pose& offset) {
 
 std::string cube_text(const Cube& cube) {
   return fmt::format("\n[[cube]]\nmass_kg = {}\nsize_m = {}\nposition_m = {}\nyaw_rad = {}\n",
-                     cube.mass_kg, cube.size_m.x(), vector_text(cube.position_m), cube.yaw_rad);
+                     cube.mass_kg, cube.size_m.x(), vector_text(cube.position_m), cube.yaw_rad) +
+         (cube.table_friction ? fmt::format("table_friction = {}\n", *cube.table_friction) : "");
 }
 
 std::string row_text(const TrajectoryRow& row) {

@@ -23,6 +23,10 @@ class StockSimulator : public DecouplingSimulator {
       : name_(std::move(name)), make_coupling_(make_coupling) {}
 
   void reset(const Scene& scene, const Pose& target) override {
+    // Stock Bullet multiplies the coefficients of two bodies.
+    for (const Cube& cube : scene.cubes)
+      if (cube.table_friction)
+        throw OutsideModel(name_ + " does not model cubes with their own friction on the table");
     coupling_.reset();
     world_.emplace(scene, clone_start(scene, target));
     if (scene.coupling.decoupled) coupling_ = make_coupling_(*world_, scene.coupling);

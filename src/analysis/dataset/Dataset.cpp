@@ -24,7 +24,9 @@ std::vector<double> Attempt::masses_g() const {
 bool Attempt::shows(std::span<const double> masses) const {
   std::vector<double> shown = masses_g();
   std::ranges::sort(shown);
-  return std::ranges::equal(shown, masses);
+  return std::ranges::equal(shown, masses) && std::ranges::none_of(cubes, [](const CubeRow& cube) {
+           return cube.table_friction.has_value();
+         });
 }
 
 std::optional<double> response_time_s(const TrialRow& trial) {

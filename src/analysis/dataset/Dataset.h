@@ -21,13 +21,13 @@ namespace heft {
 /// One attempt at a trial with all that was logged of it.
 struct Attempt {
   TrialRow trial;
-  std::vector<CubeRow> cubes;      ///< by slot
+  std::vector<CubeRow> cubes;  ///< by slot
   std::vector<AnswerRow> answers;  ///< in order
   bool is_reversal = false;
 
   bool completed() const { return trial.status == TrialStatus::completed; }
   std::vector<double> masses_g() const;  ///< by slot
-  /// Whether its cubes have these masses, given from light to heavy.
+  /// Whether its cubes have these masses, given from light to heavy, and the protocol's friction.
   bool shows(std::span<const double> masses) const;
 };
 

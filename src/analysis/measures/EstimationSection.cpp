@@ -1,9 +1,11 @@
-// Magnitude estimation: the numbers given to single cubes by mass and condition, and the exponent
-// of the power function between mass and number (Stevens 1957), of each participant and over them.
+// Magnitude estimation: the numbers given to single cubes by mass, friction and condition, and the
+// exponents of the power function between mass, friction and number (Stevens 1957), of each
+// participant and over them.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <span>
 #include <tuple>
 
@@ -27,28 +29,58 @@ constexpr Measure exponent{
     "slope of the logarithm of the number on the logarithm of the mass, by least squares for each "
     "participant: mean over participants, Student's t interval; 1: the numbers are proportional to "
     "the mass"};
+constexpr Measure friction_exponent{
+    "estimation_friction_exponent", "", "exponent of friction",
+    "where cubes have their own friction on the table: slope of the logarithm of the number on the "
+    "logarithm of that friction, by least squares together with the mass: mean over participants, "
+    "Student's t interval; equal to the exponent of mass: only mass times friction counts"};
+
+struct CubeKind {
+  double mass_g = 0;
+  std::optional<double> table_friction;
+  auto operator<=>(const CubeKind&) const = default;
+};
+
+struct Exponents {
+  std::optional<double> mass, friction;
+  std::string why;  // there is none
+};
 
 // One participant's numbers in one condition.
 struct Numbers {
-  std::map<double, std::vector<double>> by_mass;
-  std::map<double, std::vector<double>> logs_by_mass;  // of the numbers above 0
+  std::map<CubeKind, std::vector<double>> by_cube;
+  std::map<CubeKind, std::vector<double>> logs_by_cube;  // of the numbers above 0
 
-  std::optional<double> slope() const {
-    double n = 0, sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
-    std::size_t n_masses = 0;
-    for (const auto& [mass_g, logs] : logs_by_mass) {
-      n_masses += logs.empty() ? 0 : 1;
+  // Least squares of y on x, the logarithm of mass, and z, that of friction where it varies.
+  Exponents exponents() const {
+    double n = 0, x_sum = 0, y_sum = 0, z_sum = 0;
+    double xx_sum = 0, xy_sum = 0, zz_sum = 0, xz_sum = 0, zy_sum = 0;
+    std::set<double> masses, frictions;
+    for (const auto& [cube, logs] : logs_by_cube) {
+      if (logs.empty()) continue;
+      const double x = std::log(cube.mass_g), z = std::log(cube.table_friction.value_or(1));
+      masses.insert(cube.mass_g);
+      frictions.insert(cube.table_friction.value_or(1));
       for (const double y : logs) {
-        const double x = std::log(mass_g);
         n += 1;
-        sum_x += x;
-        sum_y += y;
-        sum_xx += x * x;
-        sum_xy += x * y;
+        x_sum += x;
+        y_sum += y;
+        z_sum += z;
+        xx_sum += x * x;
+        xy_sum += x * y;
+        zz_sum += z * z;
+        xz_sum += x * z;
+        zy_sum += z * y;
       }
     }
-    if (n_masses < 2) return std::nullopt;
-    return (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);
+    if (masses.size() < 2) return {{}, {}, "numbers above 0 at fewer than two masses"};
+    const double xx = n * xx_sum - x_sum * x_sum, xy = n * xy_sum - x_sum * y_sum;
+    if (frictions.size() < 2) return {xy / xx, {}, {}};
+    const double zz = n * zz_sum - z_sum * z_sum, zy = n * zy_sum - z_sum * y_sum;
+    const double xz = n * xz_sum - x_sum * z_sum, determinant = xx * zz - xz * xz;
+    if (determinant < 1e-9 * xx * zz)
+      return {{}, {}, "mass and friction varied together: their effects are not identifiable"};
+    return {(zz * xy - xz * zy) / determinant, (xx * zy - xz * xy) / determinant, {}};
   }
 };
 
@@ -97,10 +129,12 @@ class EstimationSection final : public Section {
       if (!attempt.completed() || !trial.value || !std::isfinite(*trial.value) ||
           trial.plan.is_practice || attempt.cubes.size() != 1)
         continue;
-      const double mass_g = attempt.cubes.front().mass_g;
+      const CubeRow& shown = attempt.cubes.front();
+      const CubeKind cube{shown.mass_g, shown.table_friction};
+      has_friction_ = has_friction_ || cube.table_friction.has_value();
       Numbers& numbers = people_[{trial.plan.condition, data.participant()}];
-      numbers.by_mass[mass_g].push_back(*trial.value);
-      std::vector<double>& logs = numbers.logs_by_mass[mass_g];
+      numbers.by_cube[cube].push_back(*trial.value);
+      std::vector<double>& logs = numbers.logs_by_cube[cube];
       if (*trial.value > 0) logs.push_back(std::log(*trial.value));
     }
   }
@@ -119,34 +153,46 @@ class EstimationSection final : public Section {
         return own;
       };
       std::size_t n_logs = 0;
-      for (const auto& [mass_g, values] : numbers.by_mass) {
-        const std::vector<double>& logs = numbers.logs_by_mass.at(mass_g);
+      for (const auto& [cube, values] : numbers.by_cube) {
+        const std::vector<double>& logs = numbers.logs_by_cube.at(cube);
         const auto mean_log = mean(logs);
         n_logs += logs.size();
-        put(mean_value, mean(values), values.size()).by = {at("mass_g", mass_g)};
-        put(left_out, static_cast<double>(values.size() - logs.size()), values.size()).by = {
-            at("mass_g", mass_g)};
+        std::vector<Coordinate> by{at("mass_g", cube.mass_g)};
+        if (cube.table_friction) by.push_back(at("table_friction", *cube.table_friction));
+        put(mean_value, mean(values), values.size()).by = by;
+        put(left_out, static_cast<double>(values.size() - logs.size()), values.size()).by = by;
         StudyEstimate& geometric =
             put(geometric_mean, mean_log ? std::optional(std::exp(*mean_log)) : std::nullopt,
                 logs.size());
-        geometric.by = {at("mass_g", mass_g)};
+        geometric.by = by;
         if (!mean_log) geometric.why = "no number above 0";
       }
-      StudyEstimate& slope = put(exponent, numbers.slope(), n_logs);
-      if (!slope.value) slope.why = "numbers above 0 at fewer than two masses";
+      const Exponents exponents = numbers.exponents();
+      put(exponent, exponents.mass, n_logs).why = exponents.why;
+      if (has_friction_) {
+        StudyEstimate& of_friction = put(friction_exponent, exponents.friction, n_logs);
+        of_friction.why = exponents.why;
+        if (!of_friction.value && of_friction.why.empty())
+          of_friction.why = "numbers above 0 at one friction only";
+      }
     }
     return all;
   }
 
   void put(Summary& summary) override {
     const Estimates own = of_participants(summary);
-    std::map<std::tuple<std::string, std::optional<double>, std::string_view>,
+    using Value = std::optional<double>;
+    std::map<std::tuple<std::string, Value, Value, std::string_view>,
              std::vector<const StudyEstimate*>>
         groups;
-    for (const StudyEstimate& one : own) {
-      const Coordinate* mass = one.at("mass_g");
-      groups[{one.condition, mass ? mass->value : std::nullopt, one.measure->name}].push_back(&one);
-    }
+    const auto value_at = [](const StudyEstimate& one, std::string_view name) {
+      const Coordinate* found = one.at(name);
+      return found ? found->value : std::nullopt;
+    };
+    for (const StudyEstimate& one : own)
+      groups[{one.condition, value_at(one, "mass_g"), value_at(one, "table_friction"),
+              one.measure->name}]
+          .push_back(&one);
     for (const auto& [key, people] : groups)
       summary.estimates.push_back(people.front()->measure == &left_out ? sum_over_people(people)
                                                                        : mean_over_people(people));
@@ -155,7 +201,11 @@ class EstimationSection final : public Section {
   std::vector<std::string> findings(const Summary& summary) const override {
     std::vector<std::string> parts;
     for (const StudyEstimate* one : estimates_of(summary.estimates, exponent.name)) {
-      const std::string where = in_condition(summary, one->condition);
+      std::string where = in_condition(summary, one->condition);
+      const StudyEstimate* friction =
+          find_estimate(summary.estimates, friction_exponent.name, {{"condition", one->condition}});
+      if (friction && friction->value)
+        where += fmt::format(" (of friction: {:.2f})", *friction->value);
       if (!one->value)
         parts.push_back("none " + where);
       else if (!one->low)
@@ -189,6 +239,8 @@ class EstimationSection final : public Section {
         "estimation[]"};
     add_interval(by_mass.columns, geometric_mean, "low", "high", 2);
     by_mass.columns.push_back(column(geometric_mean, Field::why, "why", "no geometric mean: why"));
+    if (has_friction_)
+      by_mass.columns.insert(by_mass.columns.begin() + 2, key_column("table_friction", "friction"));
     EstimateTable exponents{
         "estimation_exponent",
         "Magnitude estimation: exponent of the power law",
@@ -200,6 +252,11 @@ class EstimationSection final : public Section {
         "estimation_exponent[]"};
     add_interval(exponents.columns, exponent, "low", "high", 3);
     exponents.columns.push_back(column(exponent, Field::why, "why", "no exponent"));
+    if (has_friction_) {
+      exponents.columns.push_back(
+          column(friction_exponent, Field::value, "friction_exponent", "of friction", 3));
+      add_interval(exponents.columns, friction_exponent, "friction_low", "friction_high", 3);
+    }
     EstimateTable people{
         "estimation_by_participant",
         "Each participant's exponent",
@@ -210,10 +267,15 @@ class EstimationSection final : public Section {
         "",
         TablePlace::csv};
     people.participants = true;
+    if (has_friction_)
+      people.columns.push_back(
+          column(friction_exponent, Field::value, "friction_exponent", "of friction", 3));
     return {by_mass, exponents, people};
   }
 
   std::vector<ChartSpec> charts() const override {
+    std::vector<std::string_view> split{"condition"};
+    if (has_friction_) split.push_back("table_friction");
     return {
         {.name = "estimation",
          .title = "Magnitude estimation: numbers by mass, 95 % intervals",
@@ -224,7 +286,7 @@ class EstimationSection final : public Section {
          .importance = 36,
          .series = {{&geometric_mean}},
          .x = "mass_g",
-         .split = {"condition"},
+         .split = split,
          .participants = true,
          .x_label = "mass (g)",
          .y_label = "number"},
@@ -242,6 +304,7 @@ class EstimationSection final : public Section {
 
  private:
   std::map<std::pair<std::string, std::string>, Numbers> people_;  // by condition and participant
+  bool has_friction_ = false;                                      // a cube has its own
 };
 }  // namespace
 

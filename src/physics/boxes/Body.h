@@ -56,6 +56,7 @@ struct Body {
   double radius_m = 0;  ///< of the bounding sphere
   double mass_kg = 0;
   Eigen::Vector3d inertia_kg_m2 = Eigen::Vector3d::Zero();  ///< about its axes
+  std::optional<double> table_friction;                     ///< on the table; none: the world's
 
   bool solid = true;    ///< false: touches nothing
   bool driven = false;  ///< by the coupling: weightless, never asleep

@@ -164,6 +164,13 @@ double BoxWorld::advance(double h_s, const StepOptions& options) {
   return h_s;
 }
 
+ContactSurface BoxWorld::surface(const Pair& pair) const {
+  ContactSurface surface = surface_;
+  if (pair.with_table())
+    surface.friction = bodies_[pair.first].table_friction.value_or(surface_.friction);
+  return surface;
+}
+
 // The law of compliant contacts needs no lookahead beyond the next step.
 StepTime BoxWorld::time_of(double h_s, const StepOptions& options) const {
   return {h_s, surface_.is_rigid() ? options.lookahead_s : h_s};
@@ -195,7 +202,7 @@ double BoxWorld::find_contacts(double h_s, double regular_s) {
     if (!movable || !first.solid || (!second.solid && !pair.with_table()))
       pair.manifold.clear();
     else if (!pair.manifold.is_current(margin_m))
-      pair.manifold.update(contact(pair, h_s, margin_m), first, second, surface_, margin_m);
+      pair.manifold.update(contact(pair, h_s, margin_m), first, second, surface(pair), margin_m);
     if (pair.manifold.empty()) continue;
     approach_m_s = std::max(approach_m_s, pair.manifold.begin_step(regular_s, ahead_s));
     pair.manifold.extrapolate_impulses();

@@ -85,6 +85,7 @@ class BoxWorld {
   double travel_bound_m(const Body& body, double h_s) const;
   bool within(const Body& first, const Body& second, double margin_m) const;
   Contact contact(const Pair& pair, double h_s, double margin_m) const;
+  ContactSurface surface(const Pair& pair) const;
   void update_neighbors(double h_s);
   void list_neighbors();
   bool wake_within_reach(double h_s);

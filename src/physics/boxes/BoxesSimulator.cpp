@@ -224,6 +224,7 @@ void BoxesSimulator::reset(const Scene& scene, const Pose& target) {
     Body body;
     body.set_size(cube.size_m);
     body.mass_kg = cube.mass_kg;
+    body.table_friction = cube.table_friction;
     body.inertia_kg_m2 = box_inertia_kg_m2(cube.mass_kg, cube.size_m);
     body.reset(upright_pose(cube.position_m, cube.yaw_rad), {});
     world_->add(body);

@@ -50,6 +50,7 @@ void BulletSimulator::reset(const Scene& scene, const Pose& target) {
   for (const Cube& cube : scene.cubes) {
     const std::size_t i = world_->add(cube.size_m, upright_pose(cube.position_m, cube.yaw_rad));
     world_->box(i).set_mass(cube.mass_kg, box_inertia_kg_m2(cube.mass_kg, cube.size_m));
+    world_->box(i).table_friction = cube.table_friction;
   }
   coupling_ = CloneCoupling(scheme_, scene, locked_);
   coupling_.restart({clone().pose, {}}, {});

@@ -176,11 +176,14 @@ void ContactWorld::renew(Pair& pair, const Contact& contact, double impulse_scal
   for (int i = 0; i < n_old; ++i) old[static_cast<std::size_t>(i)] = manifold.getContactPoint(i);
   manifold.clearManifold();
   const btVector3 normal = to_bullet(contact.normal);
+  const bool with_table = pair.first == pair.second;
+  const double friction =
+      with_table ? boxes_[pair.first].table_friction.value_or(friction_) : friction_;
   for (const ContactPoint& at : contact.all()) {
     btManifoldPoint point(btVector3(0, 0, 0), btVector3(0, 0, 0), normal, at.distance_m);
     point.m_positionWorldOnA = to_bullet(at.on_first_m);
     point.m_positionWorldOnB = to_bullet(at.on_second_m);
-    point.m_combinedFriction = friction_;
+    point.m_combinedFriction = friction;
     point.m_index0 = at.feature;
     btPlaneSpace1(normal, point.m_lateralFrictionDir1, point.m_lateralFrictionDir2);
     point.m_contactPointFlags = BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;

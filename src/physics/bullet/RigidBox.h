@@ -26,10 +26,11 @@ struct RigidBox {
   Eigen::Vector3d size_m = Eigen::Vector3d::Ones();
   Pose pose;
   Velocity velocity;
-  double mass_kg = 0;   ///< 0: contacts do not change its velocity
-  bool solid = true;    ///< false: touches nothing
-  bool driven = false;  ///< true: weightless, never at rest
-  double still_s = 0;   ///< time since it last moved noticeably
+  double mass_kg = 0;                    ///< 0: contacts do not change its velocity
+  std::optional<double> table_friction;  ///< on the table; none: the world's
+  bool solid = true;                     ///< false: touches nothing
+  bool driven = false;                   ///< true: weightless, never at rest
+  double still_s = 0;                    ///< time since it last moved noticeably
   bool at_rest = false;
   std::unique_ptr<btRigidBody> body;
 

@@ -108,7 +108,6 @@ void PushSimulator::reset(const Scene& scene, const Pose& target) {
   mass_ = coupling.clone_mass_kg;
   stiffness_ = coupling.stiffness_n_per_m;
   damping_ = coupling.damping_ratio * 2 * std::sqrt(stiffness_ * mass_);
-  deceleration_ = scene.friction * scene.gravity_m_s2;
   free_ = Oscillation(mass_, damping_, stiffness_);
   stroke_ = StraightStroke(scene, target);
   solid_ = true;
@@ -121,7 +120,9 @@ void PushSimulator::reset(const Scene& scene, const Pose& target) {
 
 void PushSimulator::take_cube() {
   if (!stroke_.cube()) return;
-  cube_kg_ = stroke_.scene().cubes[*stroke_.cube()].mass_kg;
+  const Scene& scene = stroke_.scene();
+  cube_kg_ = scene.cubes[*stroke_.cube()].mass_kg;
+  deceleration_ = scene.table_friction(*stroke_.cube()) * scene.gravity_m_s2;
   together_ = Oscillation(mass_ + cube_kg_, damping_, stiffness_);
   rest_ = -slide_n() / stiffness_;
 }

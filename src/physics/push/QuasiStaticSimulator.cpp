@@ -38,8 +38,7 @@ class QuasiStaticSimulator : public DecouplingSimulator {
   // The spring's force is at most the friction limit; beyond that the cube follows.
   void push(double hand, double h_s) {
     const Scene& scene = stroke_.scene();
-    const double slide_n =
-        scene.friction * scene.cubes[*stroke_.cube()].mass_kg * scene.gravity_m_s2;
+    const double slide_n = stroke_.slide_n();
     const double stiffness = scene.coupling.stiffness_n_per_m;
     const double longest_m = scene.coupling.decoupled ? slide_n / stiffness : 0;
     const double lag_m = std::min(hand - stroke_.contact(), longest_m);

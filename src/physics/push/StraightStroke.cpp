@@ -139,10 +139,13 @@ void StraightStroke::refuse_place(double clone) const {
   throw OutsideModel("a second cube is touched");
 }
 
+double StraightStroke::slide_n() const {
+  return scene_.table_friction(*cube_) * scene_.cubes[*cube_].mass_kg * scene_.gravity_m_s2;
+}
+
 // Displacement of the clone's edge by rotation under a push at that distance from its axis.
 double StraightStroke::turned_aside_m(double aside_m) const {
-  const double push_n = scene_.friction * scene_.cubes[*cube_].mass_kg * scene_.gravity_m_s2;
-  const double turn_rad = push_n * aside_m / scene_.coupling.torsional_stiffness_nm_per_rad;
+  const double turn_rad = slide_n() * aside_m / scene_.coupling.torsional_stiffness_nm_per_rad;
   return turn_rad * scene_.effector_size_m.norm() / 2;
 }
 
@@ -165,7 +168,7 @@ void StraightStroke::check_square() const {
                     name(), 1e3 * aside_m));
   const double lowest_m =
       start_.position_m.z() - half_width(start_, scene_.effector_size_m, Vector3d::UnitZ());
-  if (scene_.friction * lowest_m > half_along(cube, size_m))
+  if (scene_.table_friction(*cube_) * lowest_m > half_along(cube, size_m))
     throw OutsideModel(name() + " is pushed so high that it may tip");
 }
 

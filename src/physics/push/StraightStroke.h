@@ -39,6 +39,8 @@ class StraightStroke {
 
   /// The next cube along the line, and the clone's coordinate at which it touches the cube.
   std::optional<std::size_t> cube() const { return cube_; }
+  /// Force at which that cube slides.
+  double slide_n() const;
   double contact() const { return contact_; }
 
   /// Moves the cube so that the clone touches it at this coordinate.

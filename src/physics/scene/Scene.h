@@ -46,6 +46,8 @@ struct Cube {
   Eigen::Vector3d size_m{0.035, 0.035, 0.035};
   Eigen::Vector3d position_m{0, 0, 0.0175};  ///< of the center
   double yaw_rad = 0;
+  /// Coulomb coefficient between the cube and the table; none: Scene::friction.
+  std::optional<double> table_friction = {};
 };
 
 /// Largest errors of a simulator that `auto` chooses, see auto/Choice.h.
@@ -58,7 +60,7 @@ struct Tolerance {
 
 struct Scene {
   double gravity_m_s2 = 9.81;
-  double friction = 0.8;  ///< Coulomb coefficient between any two surfaces
+  double friction = 0.8;  ///< Coulomb coefficient between two surfaces, see Cube::table_friction
   /// Deflection of a contact point per load; 0: rigid. The load of a rigid box is statically
   /// indeterminate at its corners, so that a push beside a cube's middle, or by an effector that
   /// turns, has no unique result; with compliance it has. Modeled by `boxes` only.
@@ -71,6 +73,10 @@ struct Scene {
   Pose clone_offset;
   std::vector<Cube> cubes;
   Tolerance tolerance;
+
+  double table_friction(std::size_t cube) const {
+    return cubes[cube].table_friction.value_or(friction);
+  }
 };
 
 /// Start pose of the clone for a target.

@@ -28,6 +28,7 @@ PlacedCube read_cube(TableReader table) {
   table.read_size("size_m", cube.size_m);
   table.read("position_m", cube.position_m, on_earth);
   table.read("yaw_rad", cube.yaw_rad);
+  table.read("table_friction", cube.table_friction, zero_or_more);
   table.close();
   return {cube, std::move(table)};
 }

@@ -110,19 +110,23 @@ numbers <- function(rows, task) {
   n_cubes <- table(paste(cubes$log, cubes$trial_id))
   trial <- paste(rows$log, rows$trial_id)
   rows <- rows[n_cubes[trial] == 1, ]
-  rows$mass_g <- cubes$mass_g[match(paste(rows$log, rows$trial_id), paste(cubes$log, cubes$trial_id))]
+  shown <- cubes[match(paste(rows$log, rows$trial_id), paste(cubes$log, cubes$trial_id)), ]
+  own <- !is.na(shown$table_friction)
+  rows$cube <- paste0(sprintf("%g_g", shown$mass_g),
+                      ifelse(own, sprintf("_friction_%g", shown$table_friction), ""))
+  rows <- rows[order(shown$mass_g, shown$table_friction), ]
   mean_of_people <- function(rows, values) mean(tapply(values, rows$person, mean))
   for (condition in sort(unique(rows$condition)))
-    for (mass_g in sort(unique(rows$mass_g[rows$condition == condition]))) {
-      here <- rows[rows$condition == condition & rows$mass_g == mass_g, ]
+    for (cube in unique(rows$cube[rows$condition == condition])) {
+      here <- rows[rows$condition == condition & rows$cube == cube, ]
       above_0 <- here[here$value > 0, ]
       arithmetic <- mean_of_people(here, here$value)
       geometric <- exp(mean_of_people(above_0, log(above_0$value)))
-      cat(sprintf("%s %s %g g: mean %s, geometric mean %s; %d trials of %d people\n", task, condition,
-                  mass_g, number(arithmetic), number(geometric), nrow(here),
+      cat(sprintf("%s %s %s: mean %s, geometric mean %s; %d trials of %d people\n", task, condition,
+                  gsub("_", " ", cube), number(arithmetic), number(geometric), nrow(here),
                   length(unique(here$person))))
-      record(sprintf("%s.mean.%g_g", task, mass_g), condition, NA, arithmetic)
-      record(sprintf("%s.geometric_mean.%g_g", task, mass_g), condition, NA, geometric)
+      record(sprintf("%s.mean.%s", task, cube), condition, NA, arithmetic)
+      record(sprintf("%s.geometric_mean.%s", task, cube), condition, NA, geometric)
     }
 }
 

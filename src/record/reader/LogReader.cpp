@@ -242,9 +242,13 @@ std::vector<LoggedSetup> LogReader::setups(std::int64_t session_id) const {
 std::vector<TrialRow> LogReader::trials(std::int64_t session_id) const {
   auto trials =
       impl_->rows(setup_row_from<TrialRow>, "trial", with_setups<TrialRow>("trial"), session_id);
-  std::map<int, std::vector<double>> masses_g;
-  for (const CubeRow& cube : cubes(session_id)) masses_g[cube.attempt_index].push_back(cube.mass_g);
-  for (TrialRow& trial : trials) trial.plan.masses_g = masses_g[trial.attempt_index];
+  std::map<int, std::vector<CubeRow>> shown;
+  for (const CubeRow& cube : cubes(session_id)) shown[cube.attempt_index].push_back(cube);
+  for (TrialRow& trial : trials)
+    for (const CubeRow& cube : shown[trial.attempt_index]) {
+      trial.plan.masses_g.push_back(cube.mass_g);
+      if (cube.table_friction) trial.plan.table_friction.push_back(*cube.table_friction);
+    }
   return trials;
 }
 

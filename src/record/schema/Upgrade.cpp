@@ -1,4 +1,4 @@
-// Upgrades logs of versions 5 to 7. Digests are taken over values, not over names of columns, so
+// Upgrades logs of versions 5 to 8. Digests are taken over values, not over names of columns, so
 // they stay valid.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -83,6 +83,11 @@ void add_operator(SQLite::Database& database) {
   rebuild_table(database, "setup", "*, NULL");
 }
 
+// Version 9 added the last column, `table_friction`.
+void add_table_friction(SQLite::Database& database) {
+  rebuild_table(database, "cube", "*, NULL");
+}
+
 void extend_closed_lists(SQLite::Database& database) {
   for (const ClosedList& list : closed_lists())
     for (const std::string_view name : list.names)
@@ -98,7 +103,8 @@ void rebuild(SQLite::Database& database) {
     renew_words(database);
   }
   if (version <= 6) rename_to_version_7(database);
-  add_operator(database);
+  if (version <= 7) add_operator(database);
+  add_table_friction(database);
   extend_closed_lists(database);
   seal_sessions(database);
   database.exec(views);

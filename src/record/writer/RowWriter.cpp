@@ -196,20 +196,17 @@ void RowWriter::write_trial(std::int64_t session_id, const TrialRow& trial) {
                  "session_id, attempt_index");
   if (tasks_.insert(trial.plan.task).second) schema::add_words(database_, trial.plan.task);
   insert(sql, trial, session_id, setup_id(session_id, trial.setup_index));
-  write_masses(session_id, trial);
+  write_cubes_of_plan(session_id, trial);
 }
 
-// The plan's masses are stored in the cubes' rows; other columns change only with a CubeRow.
-void RowWriter::write_masses(std::int64_t session_id, const TrialRow& trial) {
+// The plan's masses and friction are stored in the cubes' rows; other columns change only with a
+// CubeRow.
+void RowWriter::write_cubes_of_plan(std::int64_t session_id, const TrialRow& trial) {
   static const std::string sql = keyed_insert<CubeRow>("cube", "trial_id") +
                                  " ON CONFLICT (trial_id, slot) DO UPDATE SET mass_g = "
-                                 "excluded.mass_g";
-  CubeRow cube;
-  for (const double mass_g : trial.plan.masses_g) {
-    ++cube.slot;
-    cube.mass_g = mass_g;
+                                 "excluded.mass_g, table_friction = excluded.table_friction";
+  for (const CubeRow& cube : fresh_cubes(trial.attempt_index, trial.plan))
     insert(sql, cube, trial_id(session_id, trial.attempt_index));
-  }
 }
 
 void RowWriter::write_cube(std::int64_t session_id, const CubeRow& cube) {

@@ -64,7 +64,7 @@ class RowWriter {
   void write_event_row(std::int64_t session_id, int attempt_index, const Event& event);
   void write_frame(std::int64_t session_id, const FrameRow& frame);
   void write_trial(std::int64_t session_id, const TrialRow& trial);
-  void write_masses(std::int64_t session_id, const TrialRow& trial);
+  void write_cubes_of_plan(std::int64_t session_id, const TrialRow& trial);
   void withdraw(std::int64_t session_id, const Changes& changes);
   void write_cube(std::int64_t session_id, const CubeRow& cube);
   void write_info_digest(std::int64_t session_id);
