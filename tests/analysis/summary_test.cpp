@@ -167,5 +167,24 @@ TEST(Summary, ShowsTheStaircasesOfAFinishedSession) {
   EXPECT_TRUE(tracks->tracks[1].points.at(0).is_reversal);
 }
 
+// With the spring that locks the orientation there is nothing to chart.
+TEST(Summary, ShowsTheTurnOfTheCloneWhereItIsVisible) {
+  SessionData data = session(1, "a");
+  add_sortings(data, "C2", "correct", 3);  // 15, 200 and 800 g
+  const std::string measure = "clone_yaw";
+  for (Attempt& attempt : data.attempts) attempt.clone_yaw_deg = {{1, 0.001}, {3, 0.05}};
+  EXPECT_EQ(find_estimate(summarize({"x.db", {data}}, "").estimates, measure), nullptr);
+  data.attempts[0].clone_yaw_deg = {{1, 1.0}, {3, 20.0}};
+  data.attempts[1].clone_yaw_deg = {{1, 3.0}};
+  data.attempts[2].clone_yaw_deg.clear();
+  const Summary summary = summarize({"x.db", {data}}, "");
+  const auto turns = estimates_of(summary.estimates, measure);
+  ASSERT_EQ(turns.size(), 2u);
+  EXPECT_EQ(turns[0]->condition, "C2");
+  EXPECT_EQ(turns[0]->value, 2);
+  EXPECT_EQ(turns[0]->n_trials, 2);
+  EXPECT_EQ(turns[1]->value, 20);
+}
+
 }  // namespace
 }  // namespace heft

@@ -75,6 +75,34 @@ TEST_F(Views, ComparisonHasItsMassAndNoThirdCube) {
   EXPECT_EQ(of("SELECT count(*) FROM v_sorting"), "0");
 }
 
+// The effector is turned by 20 degrees about z and tilted; the clone by 12 degrees more about its
+// z.
+TEST_F(Views, FrameHasTurnOfCloneAgainstEffector) {
+  const auto turned = [](double rad, const Eigen::Vector3d& axis) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(rad, axis));
+  };
+  TrialRow trial = sorting_trial(1, 10);
+  log_.append(event(10, event_kind<TrialStarted>), starting(trial), Durability::acknowledged);
+  FrameRow frame;
+  frame.attempt_index = 1;
+  frame.contact_slot = 2;
+  frame.effector.orientation =
+      turned(0.35, Eigen::Vector3d::UnitZ()) * turned(0.1, Eigen::Vector3d::UnitX());
+  for (const double deg : {12.0, -70.0}) {
+    frame.clone = frame.effector;
+    frame.clone->orientation =
+        frame.effector.orientation * turned(deg * M_PI / 180, Eigen::Vector3d::UnitZ());
+    frame.clone->orientation.coeffs() *= deg < 0 ? -1 : 1;  // the same turn
+    log_.add_frame(frame);
+  }
+  frame.clone.reset();
+  log_.add_frame(frame);
+  log_.flush();
+  EXPECT_EQ(of("SELECT round(clone_yaw_deg, 6) FROM v_frame ORDER BY frame_id"), "12.0");
+  EXPECT_EQ(of("SELECT round(min(clone_yaw_deg), 6) FROM v_frame"), "-70.0");
+  EXPECT_EQ(of("SELECT count(clone_yaw_deg) FROM v_frame"), "2");
+}
+
 // 40 px of 0.15 mm are 6 mm, at 450 mm 0.7639 degrees (small-angle approximation: 0.76394).
 TEST_F(Views, FrameHasVisualAngleOfOffset) {
   SessionConfig setup;

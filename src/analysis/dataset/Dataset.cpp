@@ -185,6 +185,12 @@ SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& 
   data.published_conditions = found->second.published_conditions;
   const std::vector<LoggedEvent> events = log.events(id, counted_kinds);
   data.frames = log.frame_counts(id);
+  const auto turns_deg = log.clone_yaw_deg(id);
+  for (Attempt& attempt : data.attempts)
+    for (const CubeRow& cube : attempt.cubes)
+      if (const auto turn = turns_deg.find({attempt.trial.attempt_index, cube.slot});
+          turn != turns_deg.end())
+        attempt.clone_yaw_deg[cube.slot] = turn->second;
   data.events = count_events(events);
   data.noted = noted_in(events);
   if (!data.simulated()) data.pictures = count_pictures(events);

@@ -21,9 +21,12 @@ namespace heft {
 /// One attempt at a trial with all that was logged of it.
 struct Attempt {
   TrialRow trial;
-  std::vector<CubeRow> cubes;  ///< by slot
+  std::vector<CubeRow> cubes;      ///< by slot
   std::vector<AnswerRow> answers;  ///< in order
   bool is_reversal = false;
+  /// Largest turn of the clone against the hand while it touched a cube, by slot; only where frames
+  /// were kept.
+  std::map<int, double> clone_yaw_deg{};
 
   bool completed() const { return trial.status == TrialStatus::completed; }
   std::vector<double> masses_g() const;  ///< by slot

@@ -311,6 +311,26 @@ FrameCounts LogReader::frame_counts(std::int64_t session_id) const {
   return counts.empty() ? FrameCounts{} : counts.front();
 }
 
+std::map<std::pair<int, int>, double> LogReader::clone_yaw_deg(std::int64_t session_id) const {
+  using Turn = std::pair<std::pair<int, int>, double>;
+  const auto turn_from = [](Cells& cells) {
+    Turn turn;
+    cells.read(turn.first.first);
+    cells.read(turn.first.second);
+    cells.read(turn.second);
+    return turn;
+  };
+  const auto turns = impl_->rows(
+      turn_from, "frame",
+      fmt::format(
+          "SELECT 0, t.attempt_index, f.contact_slot, max(abs({})) FROM trial t JOIN frame f "
+          "ON f.trial_id = t.trial_id WHERE t.session_id = ?1 AND f.contact_slot IS NOT NULL "
+          "AND f.clone_qw IS NOT NULL GROUP BY t.attempt_index, f.contact_slot",
+          schema::clone_yaw_deg_sql),
+      session_id);
+  return {turns.begin(), turns.end()};
+}
+
 std::vector<Seal> LogReader::seals() const {
   return impl_->seals();
 }

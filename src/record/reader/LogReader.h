@@ -121,6 +121,9 @@ class LogReader {
   std::vector<FrameRow> frames(std::int64_t session_id, int attempt_index) const;
 
   FrameCounts frame_counts(std::int64_t session_id) const;
+  /// Largest turn of the clone against the effector while it touched a cube (v_frame), either way,
+  /// by attempt index and slot; only where frames were kept.
+  std::map<std::pair<int, int>, double> clone_yaw_deg(std::int64_t session_id) const;
 
   /// In the order of sealing; the last one has the log's head.
   std::vector<Seal> seals() const;

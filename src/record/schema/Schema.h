@@ -50,6 +50,12 @@ void upgrade(SQLite::Database& database);
 
 /// CREATE statements of all tables and indexes, and of the views.
 std::string tables();
-extern const char* const views;
+extern const std::string views;
+/// Expression over a row f of `frame`: turn of the clone against the effector about its z axis.
+inline constexpr const char* clone_yaw_deg_sql = R"sql(degrees(2 * atan(
+    (f.effector_qw * f.clone_qz - f.effector_qz * f.clone_qw
+     - f.effector_qx * f.clone_qy + f.effector_qy * f.clone_qx)
+    / (f.effector_qw * f.clone_qw + f.effector_qz * f.clone_qz
+       + f.effector_qx * f.clone_qx + f.effector_qy * f.clone_qy))))sql";
 
 }  // namespace heft::schema

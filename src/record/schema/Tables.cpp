@@ -93,8 +93,10 @@ std::string tables() {
 // v_trial: attempts with their configuration. v_jnd: estimates of stopped staircases. v_sorting:
 // completed sorting trials with the mass of the cube that has each label at the end (NULL: none).
 // v_frame: displayed distance between clone and effector, in degrees of visual angle if the display
-// was measured (small-angle approximation); v_trial has its maximum over a trial's frames.
-const char* const views = R"sql(
+// was measured (small-angle approximation); v_trial has its maximum over a trial's frames. And the
+// turn of the clone against the effector about the effector's z axis, counterclockwise from above
+// for one that is held level.
+const std::string views = std::string(R"sql(
 CREATE VIEW v_trial AS
 SELECT s.session_id, s.participant, s.protocol_name, s.purpose, u.responder, u.simulator,
   u.rate_hz, u.display_rate_hz, u.tracker, u.view, t.setup_id, t.trial_id, t.trial_number, t.attempt, t.block, t.task, t.condition, t.staircase,
@@ -155,7 +157,9 @@ SELECT f.frame_id, f.session_id, f.trial_id, t.trial_number, t.attempt, t.task, 
   f.t_s, f.trial_t_s, f.present_s, f.tracked, f.contact_slot, f.clone_offset_px,
   f.clone_offset_px * u.display_w_mm / u.display_w_px AS clone_offset_mm,
   f.clone_offset_px * u.display_w_mm / u.display_w_px / u.eye_distance_mm * 57.29577951308232
-    AS clone_offset_deg
+    AS clone_offset_deg,
+)sql") + clone_yaw_deg_sql +
+                          R"sql( AS clone_yaw_deg
 FROM frame f LEFT JOIN trial t ON t.trial_id = f.trial_id
 LEFT JOIN setup u ON u.setup_id = t.setup_id;
 )sql";
