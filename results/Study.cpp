@@ -57,7 +57,11 @@ const std::string& this_commit() {
 }  // namespace
 
 std::string provenance(const StudyOptions& options) {
-  return fmt::format("commit {} \u00b7 {}", this_commit(), options.command);
+  return provenance(this_commit(), options.command);
+}
+
+std::string provenance(std::string_view commit, std::string_view command) {
+  return fmt::format("commit {} \u00b7 {}", commit, command);
 }
 
 CsvFile::CsvFile(const StudyOptions& options, const std::string& name, std::string_view columns)

@@ -36,6 +36,8 @@ const StudyEntry& study_named(std::string_view name);
 
 /// "commit 1a2b3c4 · heft bench physics": the end of every caption.
 std::string provenance(const StudyOptions& options);
+/// Of a table that was written before, by the last cells of its rows.
+std::string provenance(std::string_view commit, std::string_view command);
 
 /// A CSV file whose last columns are the commit and the command.
 class CsvFile {

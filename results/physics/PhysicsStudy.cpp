@@ -34,7 +34,7 @@ std::string color_of(std::string_view simulator) {
 void run_physics_study(const StudyOptions& options) {
   const Measurements measurements = measure(options);
   write_tables(options, measurements);
-  draw_work_precision(options, measurements.all);
+  draw_work_precision(options);
   study_hands(options);
   study_growth(options);
   study_lag(options);

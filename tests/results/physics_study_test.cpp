@@ -3,11 +3,16 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <regex>
 
+#include "SourceFolder.h"
 #include "base/files/TextFile.h"
 #include "results/Study.h"
+#include "results/StudyFolder.h"
 #include "results/physics/Stability.h"
 #include "results/physics/scenes/Measurements.h"
 #include "results/physics/scenes/RandomScenes.h"
@@ -70,6 +75,37 @@ TEST_F(QuickStudy, DrawsEveryChart) {
     EXPECT_THAT(read_text_file(path), testing::HasSubstr("heft bench physics --quick")) << name;
     EXPECT_FALSE(std::filesystem::exists(folder + "/" + name + ".gnuplot"));
   }
+}
+
+// The chart of the checked-in table. HEFT_DRAW_CHART=1 in the environment also checks it in.
+TEST(WorkPrecisionChart, LabelsOfRatesAreApart) {
+  const StudyFolder folder("work_precision");
+  const std::string results = source_folder() + "/results/physics", out = folder.options().out;
+  std::filesystem::copy(results + "/work_precision.csv", out);
+  draw_work_precision(folder.options());
+  if (!std::filesystem::exists(out + "/work_precision.svg")) GTEST_SKIP() << "no gnuplot";
+  const std::string svg = folder.text("work_precision.svg");
+  struct Label {
+    double x, y, width;
+  };
+  std::vector<Label> labels;
+  const std::regex rate(
+      "translate\\(([0-9.]+),([0-9.]+)\\)\"[^>]*font-size=\"7.00\"[^>]*>"
+      "\\s*<text>([0-9]+)<");
+  for (std::sregex_iterator found(svg.begin(), svg.end(), rate), end; found != end; ++found)
+    labels.push_back({std::stod((*found)[1]), std::stod((*found)[2]),
+                      4.45 * static_cast<double>((*found)[3].length())});
+  EXPECT_GT(labels.size(), 40u);
+  const double height = 5.2;  // of digits
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Label &a = labels[i], &b = labels[j];
+      EXPECT_FALSE(std::abs(a.x - b.x) < (a.width + b.width) / 2 && std::abs(a.y - b.y) < height)
+          << "two labels at " << a.x << ", " << a.y;
+    }
+  if (std::getenv("HEFT_DRAW_CHART"))
+    std::filesystem::copy_file(out + "/work_precision.svg", results + "/work_precision.svg",
+                               std::filesystem::copy_options::overwrite_existing);
 }
 
 TEST_F(QuickStudy, HasEverySimulatorAtEveryRateInEveryScene) {

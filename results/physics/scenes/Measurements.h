@@ -54,7 +54,7 @@ Measurements measure(const StudyOptions& options);
 /// work_precision.csv, a row for each measurement; references.csv, a row for each scene.
 void write_tables(const StudyOptions& options, const Measurements& measurements);
 
-/// work_precision.svg
-void draw_work_precision(const StudyOptions& options, std::span<const Measurement> measurements);
+/// work_precision.svg, from the folder's work_precision.csv.
+void draw_work_precision(const StudyOptions& options);
 
 }  // namespace heft
