@@ -45,12 +45,12 @@ SimulatorPick pick_of(const KnownError& known, const Scene& scene, double at_lea
     return {std::string(known.simulator), at_least_hz,
             "models a straight push of one cube, " + where_even};
   const std::string why = fmt::format(
-      "models everything; 99.5 % of simulated hands that push within 4 mm of the middle of "
+      "models everything; 99 % of simulated hands that push within 4 mm of the middle of "
       "cubes on the table are {}; where hands turn by up to 35 degrees, push up to 30 mm beside "
       "the middle or move stacked cubes, {}",
       where_even,
       scene.contact_compliance_m_per_n > 0
-          ? promise_of(*known.uneven, asked)
+          ? "97 % are " + promise_of(*known.uneven, asked)
           : "rigid contacts have no unique result (set contact_compliance_m_per_n)");
   return {std::string(known.simulator),
           std::max(std::ceil(auto_rate_hz * times_faster(scene)), at_least_hz), why};
