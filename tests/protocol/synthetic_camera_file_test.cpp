@@ -25,6 +25,13 @@ s_curve = 0.6
 mosaic = true
 sharpening = 1.25
 jpeg_quality = 85
+auto_gain = 0.21
+auto_white_balance = 0.11
+flicker = 0.12
+breathing = 0.004
+last_picture = 0.31
+repeated = 0.13
+dropped = 0.14
 board_tag_scale = 1.003
 effector_tag_scale = 0.998
 focal_length_scale = 0.995
@@ -47,6 +54,13 @@ TEST(SyntheticCameraFile, SetsEveryImperfection) {
   EXPECT_TRUE(settings.optics.mosaic);
   EXPECT_EQ(settings.optics.sharpening, 1.25);
   EXPECT_EQ(settings.optics.jpeg_quality, 85);
+  EXPECT_EQ(settings.optics.auto_gain, 0.21);
+  EXPECT_EQ(settings.optics.auto_white_balance, 0.11);
+  EXPECT_EQ(settings.optics.flicker, 0.12);
+  EXPECT_EQ(settings.optics.breathing, 0.004);
+  EXPECT_EQ(settings.optics.last_picture, 0.31);
+  EXPECT_EQ(settings.optics.repeated, 0.13);
+  EXPECT_EQ(settings.optics.dropped, 0.14);
   EXPECT_EQ(settings.files.board_tag_scale, 1.003);
   EXPECT_EQ(settings.files.effector_tag_scale, 0.998);
   EXPECT_EQ(settings.files.focal_length_scale, 0.995);
@@ -75,15 +89,43 @@ TEST(SyntheticCameraFile, ShippedFileHasTheDefaults) {
     EXPECT_EQ(settings.optics.mosaic, usual.optics.mosaic);
     EXPECT_EQ(settings.optics.sharpening, usual.optics.sharpening);
     EXPECT_EQ(settings.optics.jpeg_quality, usual.optics.jpeg_quality);
+    EXPECT_EQ(settings.optics.auto_gain, usual.optics.auto_gain);
+    EXPECT_EQ(settings.optics.auto_white_balance, usual.optics.auto_white_balance);
+    EXPECT_EQ(settings.optics.flicker, usual.optics.flicker);
+    EXPECT_EQ(settings.optics.breathing, usual.optics.breathing);
+    EXPECT_EQ(settings.optics.last_picture, usual.optics.last_picture);
+    EXPECT_EQ(settings.optics.repeated, usual.optics.repeated);
+    EXPECT_EQ(settings.optics.dropped, usual.optics.dropped);
     EXPECT_EQ(settings.files.board_tag_scale, usual.files.board_tag_scale);
     EXPECT_EQ(settings.files.effector_tag_scale, usual.files.effector_tag_scale);
     EXPECT_EQ(settings.files.focal_length_scale, usual.files.focal_length_scale);
     EXPECT_EQ(settings.hand, usual.hand);
   }
-  for (const char* key :
-       {"exposure_s", "readout_s", "blur_px", "vignetting", "light", "gamma", "noise_levels",
-        "shadow", "glare", "film_curve", "s_curve", "mosaic", "sharpening", "jpeg_quality",
-        "board_tag_scale", "effector_tag_scale", "focal_length_scale", "hand"})
+  for (const char* key : {"exposure_s",
+                          "readout_s",
+                          "blur_px",
+                          "vignetting",
+                          "light",
+                          "gamma",
+                          "noise_levels",
+                          "shadow",
+                          "glare",
+                          "film_curve",
+                          "s_curve",
+                          "mosaic",
+                          "sharpening",
+                          "jpeg_quality",
+                          "auto_gain",
+                          "auto_white_balance",
+                          "flicker",
+                          "breathing",
+                          "last_picture",
+                          "repeated",
+                          "dropped",
+                          "board_tag_scale",
+                          "effector_tag_scale",
+                          "focal_length_scale",
+                          "hand"})
     EXPECT_NE(shipped.find(std::string(key) + " = "), std::string::npos) << key;
 }
 
@@ -99,7 +141,9 @@ TEST(SyntheticCameraFile, DescriptionNamesUnusualValues) {
   EXPECT_EQ(described(parse_synthetic_camera(camera_file, "x.toml")),
             "exposure 10 ms, read-out 20 ms, blur 1.5 px, noise 8 levels, gamma 2.2, light 0.4, "
             "shadow 0.4, glare 0.25, film curve 0.75, S-curve 0.6, mosaic, sharpening 1.25, JPEG "
-            "85, board's tags by 1.003, effector's tags by 0.998, focal length by 0.995");
+            "85, automatic gain 0.21, automatic white balance 0.11, flicker 0.12, focus breathing "
+            "0.004, of the last picture 0.31, repeated 0.13, dropped 0.14, board's tags by 1.003, "
+            "effector's tags by 0.998, focal length by 0.995");
 }
 
 class BrokenSyntheticCamera : public testing::TestWithParam<Broken> {};
@@ -127,6 +171,7 @@ const Broken broken_cameras[] = {
     {"film_without_curve", {"film_curve", "^film"}, {"unknown key", "\"film_curve\"?"}},
     {"s_curve_as_truth", {"= 0.6", "= ^true"}, {"s_curve", "a number"}},
     {"mosaic_as_number", {"true", "^4"}, {"mosaic", "true or false"}},
+    {"only_the_last_picture", {"= 0.31", "= ^1"}, {"last_picture is 1", "at most 0.9"}},
     {"oversharpened", {"= 1.25", "= ^6"}, {"sharpening is 6", "at most 5"}},
     {"jpeg_of_no_quality", {"= 85", "= ^0"}, {"jpeg_quality is 0", "1"}},
     {"jpeg_of_half_a_quality", {"= 85", "= ^84.5"}, {"jpeg_quality", "whole number"}},

@@ -33,6 +33,8 @@ constexpr Range noises{0, 100};
 constexpr Range shares{0, 1};
 constexpr Range sharpenings{0, 5};
 constexpr WholeRange jpeg_qualities{1, 100};
+constexpr Range lost_shares{0, 0.9};
+constexpr Range breathings{0, 0.05};
 constexpr Range scales{0.9, 1.1};  // of prints and lenses
 
 // None unless the value is a finite number, truth value or text.
@@ -65,9 +67,30 @@ const std::vector<KindKeys>& kinds_of_files() {
       {FileKind::effector, "box", {"tag", "family", "ruler_measured_m", "size_m"}},
       {FileKind::synthetic_camera,
        "exposure_s",
-       {"readout_s", "blur_px", "vignetting", "light", "gamma", "noise_levels", "shadow", "glare",
-        "film_curve", "s_curve", "mosaic", "sharpening", "jpeg_quality", "board_tag_scale",
-        "effector_tag_scale", "focal_length_scale", "hand"}},
+       {"readout_s",
+        "blur_px",
+        "vignetting",
+        "light",
+        "gamma",
+        "noise_levels",
+        "shadow",
+        "glare",
+        "film_curve",
+        "s_curve",
+        "mosaic",
+        "sharpening",
+        "jpeg_quality",
+        "auto_gain",
+        "auto_white_balance",
+        "flicker",
+        "breathing",
+        "last_picture",
+        "repeated",
+        "dropped",
+        "board_tag_scale",
+        "effector_tag_scale",
+        "focal_length_scale",
+        "hand"}},
       {FileKind::texts, "language", {"buttons", "slots", "consent", "welcome", "trial", "thanks"}},
       {FileKind::questionnaires, "questionnaire", {}},
       {FileKind::display, "eye_distance_mm", {"width_px", "height_px", "width_mm", "height_mm"}},
@@ -145,6 +168,13 @@ SyntheticSettings parse_synthetic_camera(const std::string& text, const std::str
   reader.read("mosaic", optics.mosaic);
   reader.read("sharpening", optics.sharpening, sharpenings);
   reader.read("jpeg_quality", optics.jpeg_quality, jpeg_qualities);
+  reader.read("auto_gain", optics.auto_gain, lost_shares);
+  reader.read("auto_white_balance", optics.auto_white_balance, lost_shares);
+  reader.read("flicker", optics.flicker, lost_shares);
+  reader.read("breathing", optics.breathing, breathings);
+  reader.read("last_picture", optics.last_picture, lost_shares);
+  reader.read("repeated", optics.repeated, lost_shares);
+  reader.read("dropped", optics.dropped, lost_shares);
   reader.read("board_tag_scale", settings.files.board_tag_scale, scales);
   reader.read("effector_tag_scale", settings.files.effector_tag_scale, scales);
   reader.read("focal_length_scale", settings.files.focal_length_scale, scales);
@@ -173,6 +203,13 @@ std::string described(const SyntheticSettings& settings) {
   if (optics.mosaic) text += ", mosaic";
   add("sharpening", optics.sharpening, 0);
   add("JPEG", optics.jpeg_quality, 0);
+  add("automatic gain", optics.auto_gain, 0);
+  add("automatic white balance", optics.auto_white_balance, 0);
+  add("flicker", optics.flicker, 0);
+  add("focus breathing", optics.breathing, 0);
+  add("of the last picture", optics.last_picture, 0);
+  add("repeated", optics.repeated, 0);
+  add("dropped", optics.dropped, 0);
   add("board's tags by", files.board_tag_scale, 1);
   add("effector's tags by", files.effector_tag_scale, 1);
   add("focal length by", files.focal_length_scale, 1);

@@ -57,10 +57,6 @@ std::vector<std::int16_t> noise_row(double sd, std::uint64_t seed) {
   return row;
 }
 
-bool has_uneven_light(const Optics& optics) {
-  return optics.shadow > 0 || optics.glare > 0;
-}
-
 // Blurs a row of light: row_at(n) is the row n fine steps away, of which 0 and 1 are at the
 // picture's middle; each place of the sums is `stride` places of the rows.
 template <int stride, typename RowAt>
@@ -93,9 +89,9 @@ Sensor::Sensor(const Optics& optics, int width_px, int height_px, std::uint64_t 
       lost_per_px2_(optics.exposure * optics.vignetting * 4 /
                     ((width_ - 1.0) * (width_ - 1) + (height_ - 1.0) * (height_ - 1))),
       kernel_(half_kernel(optics.blur_px)),
-      curve_(has_uneven_light(optics) ? Optics{} : optics),
+      curve_(UnevenLight::is_in(optics) ? Optics{} : optics),
       noise_(noise_row(optics.noise, seed)) {
-  if (has_uneven_light(optics)) uneven_light_.emplace(optics, width_);
+  if (UnevenLight::is_in(optics)) uneven_light_.emplace(optics, width_, height_);
   for (int x = 0; x < width_; ++x) lost_by_column_.push_back(lost_light(x, width_));
 }
 
@@ -174,9 +170,9 @@ Image Sensor::noisy(const Levels& levels, std::uint64_t number) const {
 }
 
 Image Sensor::develop(const Levels& levels, std::uint64_t number,
-                      const std::optional<Eigen::Vector2d>& effector_px) const {
+                      const std::optional<Eigen::Vector2d>& effector_px, double t_s) const {
   if (!uneven_light_) return processed(noisy(levels, number), optics_);
-  return processed(noisy(uneven_light_->on(levels, effector_px), number), optics_);
+  return processed(noisy(uneven_light_->on(levels, effector_px, t_s), number), optics_);
 }
 
 namespace {

@@ -31,9 +31,10 @@ class Sensor {
   }
 
   /// Adds the noise of that picture, rounds and processes it.
-  /// @param effector_px its position, if it is visible
+  /// @param effector_px its position, if it is visible  @param t_s when the first row is exposed
   Image develop(const Levels& levels, std::uint64_t number,
-                const std::optional<Eigen::Vector2d>& effector_px = std::nullopt) const;
+                const std::optional<Eigen::Vector2d>& effector_px = std::nullopt,
+                double t_s = 0) const;
 
  private:
   float lost_light(int place, int n_places) const;

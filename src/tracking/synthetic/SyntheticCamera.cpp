@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/Random.h"
 #include "tracking/synthetic/FaceDrawing.h"
 #include "tracking/synthetic/FilmedHand.h"
 #include "tracking/synthetic/Sensor.h"
@@ -61,7 +62,7 @@ SyntheticSettings::SyntheticSettings()
     : camera_from_board(camera_above_board(0.45, 52 * M_PI / 180)) {}
 
 struct SyntheticCamera::Impl {
-  Impl(const Apparatus& apparatus, const SyntheticSettings& with, std::uint64_t seed);
+  Impl(const Apparatus& of, const SyntheticSettings& with, std::uint64_t with_seed);
 
   const Optics& optics() const { return settings.optics; }
   SeenBody seen(const Pose& board_from_effector) const {
@@ -84,9 +85,15 @@ struct SyntheticCamera::Impl {
   void draw_moving(const std::vector<std::optional<Pose>>& poses, const PixelBox& box);
   void draw_moving(const EffectorPath& path, double t_s);
   void put_before_still(const RowSpans& spans);
+  void look_at_still(double focal_length_scale);
+  void breathe(double t_s);
+  Image filmed(const EffectorPath& path, double t_s, std::uint64_t number);
+  Image mixed(Image now);
   void forget(const RowSpans& changed);
 
   SyntheticSettings settings;
+  Apparatus apparatus;
+  std::uint64_t seed;
   Lens coarse_lens;  ///< for the picture's pixels
   Lens lens;         ///< for fine ones, used for all light but the hand's
   std::vector<PrintedFace> effector;
@@ -100,19 +107,52 @@ struct SyntheticCamera::Impl {
   /// In front of it and behind it, in the picture's pixels, since a hand's edges are not measured.
   LightPicture hand_before, hand_behind;
   LightPicture moving;  ///< its mean over the exposure, in the hand, in front of the still scene
+  Image last;           ///< the last picture; empty after the start
+  std::vector<float> mean;  ///< its values before they are rounded, of a camera that denoises
 };
 
-SyntheticCamera::Impl::Impl(const Apparatus& apparatus, const SyntheticSettings& with,
-                            std::uint64_t seed)
+SyntheticCamera::Impl::Impl(const Apparatus& of, const SyntheticSettings& with,
+                            std::uint64_t with_seed)
     : settings(with),
+      apparatus(of),
+      seed(with_seed),
       coarse_lens(apparatus.camera),
       lens(coarse_lens.fine()),
       effector(printed_effector(apparatus.effector)),
       hand(apparatus.effector.size_m, with.left_hand),
-      sensor(with.optics, apparatus.camera.width_px, apparatus.camera.height_px, seed),
-      still(still_scene(apparatus.board, with.camera_from_board, lens)) {
+      sensor(with.optics, apparatus.camera.width_px, apparatus.camera.height_px, seed) {
+  look_at_still(1);
+}
+
+void SyntheticCamera::Impl::look_at_still(double focal_length_scale) {
+  Intrinsics camera = apparatus.camera;
+  camera.fx_px *= focal_length_scale;
+  camera.fy_px *= focal_length_scale;
+  coarse_lens = Lens(camera);
+  lens = coarse_lens.fine();
+  still = still_scene(apparatus.board, settings.camera_from_board, lens);
   sensor.expose(still, RowSpans::whole(coarse_of(still.box)), still_levels);
   levels = still_levels;
+}
+
+// A lens that refocuses changes its focal length.
+void SyntheticCamera::Impl::breathe(double t_s) {
+  constexpr double period_s = 3;
+  if (optics().breathing > 0)
+    look_at_still(1 + optics().breathing * std::sin(2 * M_PI * t_s / period_s));
+}
+
+// Temporal denoising, as cameras do it: a recursive mean of stored values, with more bits than
+// those of the picture.
+Image SyntheticCamera::Impl::mixed(Image now) {
+  if (!(optics().last_picture > 0)) return now;
+  if (mean.empty()) mean.assign(now.pixels.begin(), now.pixels.end());
+  const auto share = static_cast<float>(optics().last_picture);
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    mean[i] += (1 - share) * (static_cast<float>(now.pixels[i]) - mean[i]);
+    now.pixels[i] = static_cast<std::uint8_t>(mean[i] + 0.5F);
+  }
+  return now;
 }
 
 // Enough for the length of the smear, so that it has no steps.
@@ -259,22 +299,46 @@ SyntheticCamera& SyntheticCamera::operator=(SyntheticCamera&&) noexcept = defaul
 
 // Renders only the reach of hand and effector, extended by twice the blur's extent: once for
 // blurred pixels and once for their input.
+Image SyntheticCamera::Impl::filmed(const EffectorPath& path, double t_s, std::uint64_t number) {
+  const PixelBox box = reached(path, t_s);
+  const auto at_px = effector_px(path, t_s);
+  if (box.empty()) return sensor.develop(levels, number, at_px, t_s);
+  moving.reset(box);
+  draw_moving(path, t_s);
+  const int reach_px = sensor.reach_px(), needed_px = (2 * reach_px + 1) * fineness;
+  const RowSpans drawn = RowSpans::covered(moving);
+  const RowSpans changed = drawn.coarse().grown(reach_px, reach_px);
+  put_before_still(drawn.grown(needed_px, needed_px));
+  sensor.expose(moving, changed, levels);
+  Image picture = sensor.develop(levels, number, at_px, t_s);
+  forget(changed);
+  return picture;
+}
+
+namespace {
+bool happens(double share, const char* what, std::uint64_t seed, std::uint64_t number) {
+  return share > 0 && RandomStream(seed, what, number).uniform() < share;
+}
+}  // namespace
+
 Image SyntheticCamera::picture(const EffectorPath& board_from_effector, double t_s,
                                std::uint64_t number) {
   Impl& p = *impl_;
-  const PixelBox reached = p.reached(board_from_effector, t_s);
-  const auto effector_px = p.effector_px(board_from_effector, t_s);
-  if (reached.empty()) return p.sensor.develop(p.levels, number, effector_px);
-  p.moving.reset(reached);
-  p.draw_moving(board_from_effector, t_s);
-  const int reach_px = p.sensor.reach_px(), needed_px = (2 * reach_px + 1) * fineness;
-  const RowSpans drawn = RowSpans::covered(p.moving);
-  const RowSpans changed = drawn.coarse().grown(reach_px, reach_px);
-  p.put_before_still(drawn.grown(needed_px, needed_px));
-  p.sensor.expose(p.moving, changed, p.levels);
-  Image picture = p.sensor.develop(p.levels, number, effector_px);
-  p.forget(changed);
-  return picture;
+  if (!p.last.empty() && happens(p.optics().repeated, "repeated picture", p.seed, number))
+    return p.last;
+  p.breathe(t_s);
+  Image now = p.mixed(p.filmed(board_from_effector, t_s, number));
+  if (p.optics().repeated > 0) p.last = now;
+  return now;
+}
+
+bool SyntheticCamera::drops(std::uint64_t number) const {
+  return happens(impl_->optics().dropped, "dropped picture", impl_->seed, number);
+}
+
+void SyntheticCamera::restart() {
+  impl_->last = {};
+  impl_->mean.clear();
 }
 
 Image SyntheticCamera::hand_in_picture(const Pose& board_from_effector) {

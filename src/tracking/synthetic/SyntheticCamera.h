@@ -40,6 +40,15 @@ struct Optics {
   bool mosaic = false;    ///< each pixel has one color, the others are interpolated
   double sharpening = 0;  ///< factor of the difference to a blur of 1 px, on stored values
   int jpeg_quality = 0;   ///< libjpeg's scale, 1 to 100; 0: not compressed
+
+  // Changes over time:
+  double auto_gain = 0;           ///< amplitude of the gain, relative to 1; period 4 s
+  double auto_white_balance = 0;  ///< of red's gain, and of blue's in opposition; period 5 s
+  double flicker = 0;             ///< amplitude of light at 100 Hz, relative to its mean
+  double breathing = 0;           ///< amplitude of the focal length, relative to it; period 3 s
+  double last_picture = 0;        ///< fraction of the last picture in each: temporal denoising
+  double repeated = 0;            ///< fraction of pictures that repeat the last one
+  double dropped = 0;             ///< fraction of pictures that are lost
 };
 
 /// True values relative to the files of the apparatus.
@@ -78,9 +87,16 @@ class SyntheticCamera {
   SyntheticCamera(SyntheticCamera&&) noexcept;
   SyntheticCamera& operator=(SyntheticCamera&&) noexcept;
 
-  /// The picture whose first row's exposure has its middle at t_s. @param number of the picture,
-  /// for its noise
+  /// The picture whose first row's exposure has its middle at t_s. A camera that denoises or
+  /// repeats pictures continues the last one.
+  /// @param number of the picture, for its noise
   Image picture(const EffectorPath& board_from_effector, double t_s, std::uint64_t number);
+
+  /// Whether that picture is lost on its way.
+  bool drops(std::uint64_t number) const;
+
+  /// The next picture does not continue the last one.
+  void restart();
 
   /// Coverage by the visible hand: 255 completely, one channel.
   Image hand_in_picture(const Pose& board_from_effector);

@@ -52,14 +52,22 @@ std::vector<float> light_of_levels() {
 
 namespace {
 constexpr float penumbra_px = 2;
+constexpr double gain_period_s = 4, balance_period_s = 5, flicker_hz = 100;
 constexpr float across_x = 0.8F, across_y = 0.6F;  // the shadow's edge is slanted to the tags
 }  // namespace
 
-UnevenLight::UnevenLight(const Optics& optics, int width_px)
-    : shadow_(static_cast<float>(optics.shadow)),
+bool UnevenLight::is_in(const Optics& optics) {
+  return optics.shadow > 0 || optics.glare > 0 || optics.auto_gain > 0 ||
+         optics.auto_white_balance > 0 || optics.flicker > 0;
+}
+
+UnevenLight::UnevenLight(const Optics& optics, int width_px, int height_px)
+    : optics_(optics),
+      shadow_(static_cast<float>(optics.shadow)),
       glare_(static_cast<float>(optics.glare)),
       glare_px_(static_cast<float>(width_px) / 16),
       width_(width_px),
+      height_(height_px),
       curve_(optics),
       light_(light_of_levels()) {}
 
@@ -73,11 +81,27 @@ float UnevenLight::reflected(float right_px, float down_px) const {
   return squared < 30 ? glare_ * std::exp2(-squared) : 0;
 }
 
-Levels UnevenLight::on(const Levels& even, const std::optional<Eigen::Vector2d>& at_px) const {
+// Of blue, green and red, at a row that is exposed row_s after the first one. The exposure's mean
+// of the light flickers less.
+std::array<float, 3> UnevenLight::gains(double t_s, double row_s) const {
+  const auto wave = [&](double period_s) { return std::sin(2 * M_PI * t_s / period_s); };
+  const double half_turn = M_PI * flicker_hz * optics_.exposure_s;
+  const double seen = half_turn > 0 ? std::sin(half_turn) / half_turn : 1;
+  const double lamp = 1 + optics_.flicker * seen * std::sin(2 * M_PI * flicker_hz * (t_s + row_s));
+  const double gain = lamp * (1 + optics_.auto_gain * wave(gain_period_s));
+  const double red = optics_.auto_white_balance * wave(balance_period_s);
+  return {static_cast<float>(gain * (1 - red)), static_cast<float>(gain),
+          static_cast<float>(gain * (1 + red))};
+}
+
+Levels UnevenLight::on(const Levels& even, const std::optional<Eigen::Vector2d>& at_px,
+                       double t_s) const {
   Levels uneven;
   uneven.reserve(even.size());
   const int n_pixels = static_cast<int>(even.size() / 3);
+  std::array<float, 3> now{};
   for (int i = 0; i < n_pixels; ++i) {
+    if (i % width_ == 0) now = gains(t_s, optics_.readout_s * (i / width_) / height_);
     float gain = 1, more = 0;
     if (at_px) {
       const int column = i % width_, row = i / width_;
@@ -88,7 +112,8 @@ Levels UnevenLight::on(const Levels& even, const std::optional<Eigen::Vector2d>&
     }
     for (std::size_t channel = 0; channel < 3; ++channel) {
       const auto level = even[3 * static_cast<std::size_t>(i) + channel];
-      const float light = gain * light_[static_cast<std::size_t>(level)] + more;
+      const float lit = gain * light_[static_cast<std::size_t>(level)] + more;
+      const float light = now[channel] * lit;
       constexpr auto most = static_cast<float>(most_light);
       uneven.push_back(curve_.at(LevelCurve::place_of(std::min(light, most))));
     }

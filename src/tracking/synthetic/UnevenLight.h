@@ -1,8 +1,9 @@
 // Uneven light: a shadow's edge across the effector, which follows it, and a lamp's reflection on
-// it.
+// it; lamps that flicker; and a camera that adjusts its gain and white balance.
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -13,8 +14,6 @@
 namespace heft {
 
 // The tone curve of a synthetic camera, from light to gray levels, as a table.
-
-struct Optics;
 
 /// Gray levels (0...255) before noise, in 1/64, so that only the final rounding matters. Rows from
 /// the top, three channels.
@@ -47,20 +46,26 @@ std::vector<float> light_of_levels();
 
 class UnevenLight {
  public:
-  UnevenLight(const Optics& optics, int width_px);
+  UnevenLight(const Optics& optics, int width_px, int height_px);
+
+  /// Whether these optics have any.
+  static bool is_in(const Optics& optics);
 
   /// A picture in uneven light, by the camera's tone curve.
   /// @param even the same picture in even light, by sRGB  @param at_px position of the effector;
   /// none: shadow and
   ///   reflection are out of the picture, too
-  Levels on(const Levels& even, const std::optional<Eigen::Vector2d>& at_px) const;
+  /// @param t_s when the first row is exposed
+  Levels on(const Levels& even, const std::optional<Eigen::Vector2d>& at_px, double t_s) const;
 
  private:
   float lit(float right_px, float down_px) const;
   float reflected(float right_px, float down_px) const;
+  std::array<float, 3> gains(double t_s, double row_s) const;
 
+  Optics optics_;
   float shadow_, glare_, glare_px_;
-  int width_;
+  int width_, height_;
   LevelCurve curve_;
   std::vector<float> light_;  ///< by level
 };

@@ -217,6 +217,92 @@ TEST(SyntheticFaults, UnevenLightThatIsEvenChangesNothing) {
     ASSERT_NEAR(plain.pixels[i], told.pixels[i], 1);
 }
 
+SyntheticSettings noiseless(const Optics& faults) {
+  SyntheticSettings settings;
+  settings.optics = faults;
+  settings.optics.noise = 0;
+  return settings;
+}
+
+Image filmed(SyntheticCamera camera, double t_s) {
+  return camera.picture(out_of_view, t_s, 0);
+}
+
+double mean_of(const Image& image, std::size_t channel, int first_row, int last_row) {
+  double sum = 0;
+  for (int y = first_row; y < last_row; ++y)
+    for (int x = 0; x < image.width; ++x) sum += light_of_stored(at(image, x, y)[channel]);
+  return sum / (image.width * (last_row - first_row));
+}
+
+TEST(SyntheticFaults, ADenoisingCameraKeepsAShareOfTheLastPicture) {
+  const Apparatus apparatus = default_apparatus(640);
+  SyntheticCamera camera(apparatus, noiseless({.last_picture = 0.3}), 1);
+  SyntheticCamera plain(apparatus, noiseless({}), 1);
+  const Image first = camera.picture(moving, 0, 0), second = camera.picture(moving, 0.1, 1);
+  const Image before = plain.picture(moving, 0, 0), now = plain.picture(moving, 0.1, 1);
+  EXPECT_EQ(first.pixels, before.pixels);
+  for (std::size_t i = 0; i < now.pixels.size(); ++i)
+    ASSERT_NEAR(second.pixels[i], 0.7 * now.pixels[i] + 0.3 * before.pixels[i], 0.51);
+  camera.restart();
+  EXPECT_EQ(camera.picture(moving, 0.1, 1).pixels, now.pixels);
+}
+
+TEST(SyntheticFaults, GainAndWhiteBalanceChangeSlowly) {
+  const Apparatus apparatus = default_apparatus(640);
+  const auto light = [&](const Optics& optics, double t_s, std::size_t channel) {
+    return mean_of(filmed({apparatus, noiseless(optics), 1}, t_s), channel, 0, 480);
+  };
+  const double usual = light({.exposure = 0.5}, 0, 1);
+  EXPECT_NEAR(light({.exposure = 0.5, .auto_gain = 0.2}, 1, 1) / usual, 1.2, 0.005);
+  EXPECT_NEAR(light({.exposure = 0.5, .auto_gain = 0.2}, 3, 1) / usual, 0.8, 0.005);
+  const Optics balancing{.exposure = 0.5, .auto_white_balance = 0.2};
+  EXPECT_NEAR(light(balancing, 1.25, 2) / light(balancing, 0, 2), 1.2, 0.005);
+  EXPECT_NEAR(light(balancing, 1.25, 0) / light(balancing, 0, 0), 0.8, 0.005);
+}
+
+// A quarter of a period is 2.5 ms; an exposure of 4 ms sees 76 % of the amplitude.
+TEST(SyntheticFaults, FlickerIsOf100HzAndShowsAsBands) {
+  const Apparatus apparatus = default_apparatus(640);
+  const Optics usual{.exposure = 0.5, .readout_s = 0.02};
+  Optics flickering = usual;
+  flickering.flicker = 0.2;
+  const Image even = filmed({apparatus, noiseless(usual), 1}, 0);
+  const Image banded = filmed({apparatus, noiseless(flickering), 1}, 0);
+  const auto ratio = [&](int row) {
+    return mean_of(banded, 1, row - 4, row + 4) / mean_of(even, 1, row - 4, row + 4);
+  };
+  EXPECT_NEAR(ratio(60), 1 + 0.2 * 0.757, 0.01);
+  EXPECT_NEAR(ratio(180), 1 - 0.2 * 0.757, 0.01);
+  EXPECT_NEAR(ratio(240), 1, 0.02);
+}
+
+TEST(SyntheticFaults, ALensThatBreathesChangesItsFocalLength) {
+  const Apparatus apparatus = default_apparatus(640);
+  SyntheticSettings longer = noiseless({});
+  longer.files.focal_length_scale = 1.004;
+  EXPECT_EQ(filmed({apparatus, noiseless({.breathing = 0.004}), 1}, 0.75).pixels,
+            filmed({apparatus, longer, 1}, 0.75).pixels);
+}
+
+TEST(SyntheticFaults, PicturesAreRepeatedAndLostAsOftenAsIsSaid) {
+  const Apparatus apparatus = default_apparatus(640);
+  SyntheticSettings settings;
+  settings.optics.repeated = 0.3;
+  settings.optics.dropped = 0.2;
+  SyntheticCamera camera(apparatus, settings, 5);
+  Image last;
+  int n_repeated = 0, n_dropped = 0;
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    const Image now = camera.picture(out_of_view, 0, i);
+    n_repeated += now.pixels == last.pixels;
+    n_dropped += camera.drops(i);
+    last = now;
+  }
+  EXPECT_NEAR(n_repeated, 30, 14);
+  EXPECT_NEAR(n_dropped, 20, 12);
+}
+
 // The picture of files that are wrong is that of things as they are.
 TEST(SyntheticFaults, FilesAreWrongByWhatIsSaid) {
   const Apparatus told = default_apparatus(640);
