@@ -66,7 +66,8 @@ double spent_s(const LookedAt& seen) {
 
 // "exposure 4.0 ms" or "exposure: the camera chooses it...": the control and its state.
 CheckResult lock_verdict(CheckVerdict verdict, const std::string& what) {
-  for (const char* control : {"exposure", "focus", "white balance"}) {
+  for (const char* control :
+       {"exposure", "focus", "white balance", "gain", "power line", "dynamic frame rate"}) {
     if (!what.starts_with(control)) continue;
     const auto rest = what.find_first_not_of(": ", std::string(control).size());
     const char* lock = verdict == CheckVerdict::ok ? "locked" : "not locked";

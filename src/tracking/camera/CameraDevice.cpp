@@ -148,6 +148,7 @@ void Device::open() {
   lock_controls({[this](int property, double value) { return capture_->set(property, value); },
                  [this](int property) { return capture_->get(property); }},
                 request_, locks_);
+  lock_driver_controls(fmt::format("/dev/video{}", number_), locks_);
   const double said_s = capture_->get(cv::CAP_PROP_EXPOSURE) * driver_exposure_s;
   exposure_s_ = said_s > 0 && said_s < 0.1 ? said_s : request_.exposure_s;
 }

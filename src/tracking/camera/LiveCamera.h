@@ -67,4 +67,16 @@ struct CameraControls {
 /// Locks exposure, focus and white balance, and records what the driver accepted.
 void lock_controls(const CameraControls& controls, const CameraRequest& request, CameraMode& mode);
 
+// Controls of a V4L2 driver that OpenCV lacks: DriverControls.cpp.
+
+/// ioctl() of an open device: 0 if it succeeds.
+using DeviceRequest = std::function<int(unsigned long request, void* argument)>;
+
+/// Sets each control that the driver has, reads it back, and adds it to the mode's locked or
+/// not_locked: gain stays where it is, the frame rate does not follow the light, the power line
+/// frequency is 50 or 60 Hz; and the white balance's temperature.
+void lock_driver_controls(const DeviceRequest& device, CameraMode& mode);
+/// The same for a device file. Adds nothing if it cannot be opened.
+void lock_driver_controls(const std::string& path, CameraMode& mode);
+
 }  // namespace heft

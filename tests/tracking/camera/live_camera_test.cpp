@@ -1,7 +1,9 @@
 // What can be tested of a live camera without one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <linux/videodev2.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <opencv2/videoio.hpp>
@@ -135,6 +137,67 @@ TEST(RequestFor, IsTheUsualOneWhereTheFileTellsNothing) {
   EXPECT_EQ(request.exposure_s, CameraRequest{}.exposure_s);
   EXPECT_EQ(request.rate_hz, 30);
   EXPECT_FALSE(request.focus);
+}
+
+// A V4L2 driver with these controls, of which it holds some at their values.
+struct FakeDriver {
+  std::map<std::uint32_t, int> values;
+  std::vector<std::uint32_t> fixed;
+
+  CameraMode locked(CameraMode mode = {}) {
+    lock_driver_controls(
+        [this](unsigned long request, void* argument) {
+          if (request == VIDIOC_QUERYCTRL)
+            return values.contains(static_cast<v4l2_queryctrl*>(argument)->id) ? 0 : -1;
+          auto& control = *static_cast<v4l2_control*>(argument);
+          const auto found = values.find(control.id);
+          if (found == values.end()) return -1;
+          const bool is_fixed = std::ranges::count(fixed, control.id) > 0;
+          if (request == VIDIOC_S_CTRL && !is_fixed) found->second = control.value;
+          if (request == VIDIOC_G_CTRL) control.value = found->second;
+          return 0;
+        },
+        mode);
+    return mode;
+  }
+};
+
+TEST(DriverControls, AreSetReadBackAndListed) {
+  FakeDriver driver{{{V4L2_CID_AUTOGAIN, 1},
+                     {V4L2_CID_GAIN, 12},
+                     {V4L2_CID_POWER_LINE_FREQUENCY, V4L2_CID_POWER_LINE_FREQUENCY_AUTO},
+                     {V4L2_CID_EXPOSURE_AUTO_PRIORITY, 1},
+                     {V4L2_CID_WHITE_BALANCE_TEMPERATURE, 4600}},
+                    {}};
+  CameraMode balanced;
+  balanced.locked = {"white balance"};
+  const CameraMode mode = driver.locked(balanced);
+  EXPECT_THAT(mode.locked, ElementsAre("white balance 4600 K", "gain 12", "power line 50 Hz",
+                                       "dynamic frame rate off"));
+  EXPECT_THAT(mode.not_locked, IsEmpty());
+  EXPECT_EQ(driver.values[V4L2_CID_AUTOGAIN], 0);
+  EXPECT_EQ(driver.values[V4L2_CID_POWER_LINE_FREQUENCY], V4L2_CID_POWER_LINE_FREQUENCY_50HZ);
+  EXPECT_EQ(driver.values[V4L2_CID_EXPOSURE_AUTO_PRIORITY], 0);
+  driver.values[V4L2_CID_POWER_LINE_FREQUENCY] = V4L2_CID_POWER_LINE_FREQUENCY_60HZ;
+  EXPECT_THAT(driver.locked().locked, Contains("power line 60 Hz"));
+}
+
+TEST(DriverControls, ThatDoNotChangeAreNamedWithTheirConsequence) {
+  FakeDriver driver{
+      {{V4L2_CID_AUTOGAIN, 1},
+       {V4L2_CID_POWER_LINE_FREQUENCY, 0},
+       {V4L2_CID_EXPOSURE_AUTO_PRIORITY, 1}},
+      {V4L2_CID_AUTOGAIN, V4L2_CID_POWER_LINE_FREQUENCY, V4L2_CID_EXPOSURE_AUTO_PRIORITY}};
+  const CameraMode mode = driver.locked();
+  EXPECT_THAT(mode.locked, IsEmpty());
+  EXPECT_THAT(mode.not_locked, ElementsAre(HasSubstr("brightness"), HasSubstr("flicker"),
+                                           HasSubstr("fewer pictures")));
+}
+
+TEST(DriverControls, ThatADriverLacksAreNotListed) {
+  const CameraMode mode = FakeDriver{}.locked();
+  EXPECT_THAT(mode.locked, IsEmpty());
+  EXPECT_THAT(mode.not_locked, IsEmpty());
 }
 
 TEST(VideoDevices, AreListedByNumber) {
