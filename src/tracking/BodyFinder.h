@@ -44,6 +44,12 @@ class BodyFinder {
     how_.noise = noise;
     how_.curve = curve;
   }
+  /// The lens's focal length has changed.
+  void refocus(const Intrinsics& camera) { camera_ = camera; }
+  /// Of the last find.
+  FocalError focal_error(const BodyFit& fit, const BiasPrior& prior) const {
+    return heft::focal_error(last_tags_, fit, prior);
+  }
   /// Information on the camera's tone curve from the edges of the last find.
   const PictureTone& tone() const { return tone_; }
 

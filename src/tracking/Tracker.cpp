@@ -26,7 +26,7 @@ constexpr BiasPrior unknown_bias{0, 0.1};
 constexpr double least_bias_sd_px = 0.006;
 // The effector's edges have another light and slant than the board's.
 constexpr double bias_differs_px = 0.005, bias_differs_relative = 0.15;
-constexpr int tags_that_tell_bias = 4;
+constexpr int tags_that_tell_bias = 4, tags_that_tell_focus = 8;
 
 // After so many pictures without the effector it is out of view, and only half of each picture is
 // searched for it.
@@ -34,6 +34,9 @@ constexpr int pictures_searched_whole = 3;
 // Without a board, every so many pictures are searched for it thoroughly, which takes several times
 // as long.
 constexpr int pictures_without_a_close_search = 4;
+
+// Quality of a pose whose tags are seen twice, here and where they were in a lost picture.
+constexpr double doubled_quality = 0.25;
 
 // Tags are read again if the pose from edges alone is less certain, for example with a slanted tag
 // half under fingers.
@@ -86,7 +89,8 @@ void require_own_tags(const MarkerBody& board, const MarkerBody& effector) {
 }  // namespace
 
 Tracker::Tracker(const Apparatus& apparatus, const TrackerSettings& settings)
-    : camera_(apparatus.camera),
+    : calibrated_(apparatus.camera),
+      camera_(apparatus.camera),
       settings_(settings),
       board_(camera_, apparatus.board, settings,
              {usual_blur_px, board_edge_pixels, 0, ToneCurve(), settings.remove_bias}),
@@ -159,6 +163,23 @@ std::optional<BodyFit> Tracker::learn_tone(std::optional<BodyFit> board) {
   }
   tone_.next_picture();
   return board;
+}
+
+void Tracker::refocus() {
+  camera_ = calibrated_;
+  camera_.fx_px *= focus_.scale();
+  camera_.fy_px *= focus_.scale();
+  for (BodyFinder* finder : {&board_, &effector_}) finder->refocus(camera_);
+}
+
+// The board's perspective gives the focal length. Its edges are measured again with a changed one.
+std::optional<BodyFit> Tracker::learn_focus(std::optional<BodyFit> board, double t_s) {
+  if (!board || board->n_tags < tags_that_tell_focus || !settings_.refine_edges) return board;
+  if (!focus_.learn(board_.focal_error(*board, unknown_bias), t_s)) return board;
+  refocus();
+  const auto again = board_.find_again(gray_, board->camera_from_body,
+                                       {.tags = tags_that_tell_bias}, unknown_bias, result_.times);
+  return again ? again : board;
 }
 
 std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double t_s) {
@@ -253,7 +274,16 @@ void Tracker::take_effector(const BodyFit& fit, double t_s) {
   result_.n_effector_tags = fit.n_tags;
   result_.n_effector_faces = fit.n_faces;
   result_.effector_reprojection_px = fit.rms_px;
-  result_.quality = fit.quality;
+  const bool is_doubled = mix_.leaves_ghost() && seen_->velocity.linear_m_s.norm() > still_m_s;
+  result_.quality = fit.quality * (is_doubled ? doubled_quality : 1);
+}
+
+// The last picture's result.
+TrackedPicture Tracker::repeated() {
+  result_.repeated = true;
+  result_.jump = false;
+  result_.times = {};
+  return result_;
 }
 
 TrackedPicture Tracker::track(const Image& image, double t_s) {
@@ -262,13 +292,19 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
         "the picture has {} x {} pixels, but the camera was calibrated for {} x {}: calibrate it "
         "at the size that sessions use",
         image.width, image.height, camera_.width_px, camera_.height_px));
-  gray_ = gray_of(image);
+  Image seen = gray_of(image);
+  const double seen_noise = noise_of(seen);
+  seen = mix_.cleared(std::move(seen), t_s, seen_noise);
+  if (mix_.repeats()) return repeated();
+  gray_ = std::move(seen);
   board_family_tags_.reset();
   result_ = {};
-  result_.noise = noise_of(gray_);
+  result_.last_picture = mix_.share();
+  result_.noise = mix_.share() > 0 ? noise_of(gray_) : seen_noise;
   expect_picture();
   result_.effector_t_s = t_s;
-  auto board = learn_tone(find_board());
+  auto board = learn_focus(learn_tone(find_board()), t_s);
+  result_.focal_length_scale = focus_.scale();
   result_.n_foreign_tags = board_.n_foreign();
   if (board && !has_effector() && board->quality < least_pose_quality) board.reset();
   take_board(board);
@@ -287,6 +323,7 @@ void Tracker::reset() {
   last_board_.reset();
   seen_.reset();
   n_unseen_ = n_without_board_ = 0;
+  mix_.reset();
 }
 
 }  // namespace heft

@@ -11,6 +11,8 @@
 #include "tracking/BodyFinder.h"
 #include "tracking/SeenEffector.h"
 #include "tracking/detection/TagDetector.h"
+#include "tracking/detection/TemporalMix.h"
+#include "tracking/pose/FocusLearner.h"
 #include "tracking/pose/MarkerBody.h"
 
 namespace heft {
@@ -38,6 +40,13 @@ struct TrackedPicture {
   /// for two similar tilts; below one half where the picture is overexposed. 0 if nothing was
   /// found, never between that and least_pose_quality.
   double quality = 0;
+  /// The picture repeats the last one: poses and effector_t_s are the last one's.
+  bool repeated = false;
+  /// Fraction of the last picture in each, by the camera's temporal denoising; removed before tags
+  /// are measured.
+  double last_picture = 0;
+  /// Of the focal length, relative to the camera's file: a lens that refocuses breathes.
+  double focal_length_scale = 1;
   /// The effector is beyond the reach of motion since it was last seen, or was not seen for too
   /// long.
   bool jump = false;
@@ -75,18 +84,23 @@ class Tracker {
   std::vector<DetectedTag> all_effector_tags();
   std::optional<BodyFit> find_board();
   std::optional<BodyFit> learn_tone(std::optional<BodyFit> board);
+  std::optional<BodyFit> learn_focus(std::optional<BodyFit> board, double t_s);
+  void refocus();
   void expect_picture();
   std::optional<BodyFit> find_effector(const BodyFit& seen_board, double t_s);
   std::optional<Smear> smear(const Pose& board_from_effector, const BodyFit& seen_board,
                              double t_s) const;
   BodyFit unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrior& prior, double t_s);
+  TrackedPicture repeated();
   void take_board(const std::optional<BodyFit>& fit);
   void take_effector(const BodyFit& fit, double t_s);
 
-  Intrinsics camera_;
+  Intrinsics calibrated_, camera_;  ///< the file's, and with its focal length of now
   TrackerSettings settings_;
   BodyFinder board_, effector_;
   ToneLearner tone_;
+  TemporalMix mix_;
+  FocusLearner focus_;
   std::vector<TagDetector> detectors_;  ///< one, or the board's and the effector's
 
   // Of the current picture:

@@ -52,6 +52,7 @@ TargetSample smoothed(PoseFilter& filter, const TrackedPicture& tracked, double 
 void PictureTracker::reset() {
   tracker_.reset();
   filter_.reset();
+  sample_ = {};
   camera_from_board_.reset();
   look_again();
 }
@@ -69,7 +70,10 @@ Picture PictureTracker::track(std::shared_ptr<const Image> image, double t_s) {
     picture.trouble = "board_lost";
   }
   picture.camera_from_board = camera_from_board_;
-  picture.sample = smoothed(filter_, tracked, t_s);
+  if (!tracked.repeated) sample_ = smoothed(filter_, tracked, t_s);
+  picture.sample = sample_;
+  picture.sample.t_capture_s = t_s;
+  picture.sample.jump = sample_.jump && !tracked.repeated;
   return picture;
 }
 
@@ -152,6 +156,7 @@ SyntheticPictures::SyntheticPictures(const PictureParts& parts)
 void SyntheticPictures::begin_attempt(const AttemptStart& attempt) {
   attempt_ = attempt;
   count_.restart();
+  camera_.restart();
   tracker_.reset();
 }
 
@@ -161,10 +166,15 @@ void SyntheticPictures::listen_again() {
 }
 
 std::optional<Picture> SyntheticPictures::next() {
-  const std::uint64_t count = count_.take();
+  const auto number_of = [&](std::uint64_t count) {
+    return (static_cast<std::uint64_t>(attempt_.trial_number) << 40) |
+           (static_cast<std::uint64_t>(attempt_.attempt) << 32) | count;
+  };
+  std::uint64_t count = count_.take();
+  int n_lost = 0;
+  for (; camera_.drops(number_of(count)); count = count_.take()) ++n_lost;
   const double t_s = count_.time_s(count);
-  const auto number = (static_cast<std::uint64_t>(attempt_.trial_number) << 40) |
-                      (static_cast<std::uint64_t>(attempt_.attempt) << 32) | count;
+  const std::uint64_t number = number_of(count);
   const auto path = [&](double at_s) -> std::optional<Pose> {
     const HandSample sample = hand_.hand(std::max(at_s, 0.0));
     return sample.in_view ? std::optional(sample.pose) : std::nullopt;
@@ -173,7 +183,7 @@ std::optional<Picture> SyntheticPictures::next() {
   if (recording_ && attempt_.is_recorded())
     recording_->keep(*image, attempt_.start_s + t_s, {path(t_s), settings_.camera_from_board});
   Picture picture = tracker_.track(std::move(image), t_s);
-  picture.n_dropped = count_.skipped();
+  picture.n_dropped = count_.skipped() + n_lost;
   return picture;
 }
 

@@ -34,6 +34,7 @@ class PictureTracker {
  private:
   Tracker tracker_;
   PoseFilter filter_;
+  TargetSample sample_;  ///< the last one
   std::optional<Pose> camera_from_board_;
   std::optional<double> board_seen_s_;
 };

@@ -1,4 +1,6 @@
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/Pose.h"
@@ -51,9 +53,15 @@ void add_residual(Equations& equations, double residual_px, const Vector7& by, d
   ++equations.n;
 }
 
-bool add_edge(Equations& equations, const TagObservation::Edge& edge, double outward,
-              const Unknowns& at) {
-  if (std::isinf(edge.sd_px)) return true;
+// One of the two equations of an edge.
+struct EdgeResidual {
+  double px;
+  Vector7 by;
+  double by_focal;  ///< by the relative focal length
+};
+
+bool edge_residuals(const TagObservation::Edge& edge, double outward, const Unknowns& at,
+                    std::array<EdgeResidual, 2>& residuals) {
   End a, b;
   if (!project_end(at.pose, edge.start_m, a) || !project_end(at.pose, edge.end_m, b)) return false;
   const Eigen::Vector2d along = b.ray - a.ray;
@@ -63,12 +71,22 @@ bool add_edge(Equations& equations, const TagObservation::Edge& edge, double out
     const Eigen::Vector2d from_a = edge.rays[i] - a.ray;
     const double fraction = from_a.dot(along) / (length * length);
     const double scale = edge.px_per_ray[i];
-    Vector7 by;
-    by.head<6>() =
+    EdgeResidual& one = residuals[i];
+    one.px = scale * normal.dot(from_a) - outward * at.bias_px;
+    one.by.head<6>() =
         -scale * ((1 - fraction) * a.by_pose + fraction * b.by_pose).transpose() * normal;
-    by(6) = -outward;
-    add_residual(equations, scale * normal.dot(from_a) - outward * at.bias_px, by, edge.sd_px);
+    one.by(6) = -outward;
+    one.by_focal = -scale * normal.dot(edge.rays[i]);
   }
+  return true;
+}
+
+bool add_edge(Equations& equations, const TagObservation::Edge& edge, double outward,
+              const Unknowns& at) {
+  if (std::isinf(edge.sd_px)) return true;
+  std::array<EdgeResidual, 2> residuals;
+  if (!edge_residuals(edge, outward, at, residuals)) return false;
+  for (const EdgeResidual& one : residuals) add_residual(equations, one.px, one.by, edge.sd_px);
   return true;
 }
 
@@ -114,6 +132,30 @@ BodyFit adjust(const std::vector<TagObservation>& tags, const Pose& start, const
   const auto at_these = [&](const Unknowns& these) { return equations_at(tags, these, prior); };
   const Equations equations = levenberg_marquardt(at, most_steps, settled, at_these, moved);
   return fit_of(at, equations);
+}
+
+// One step of Gauss and Newton with the focal length as the eighth unknown.
+FocalError focal_error(const std::vector<TagObservation>& tags, const BodyFit& fit,
+                       const BiasPrior& prior) {
+  const Unknowns at{fit.camera_from_body, fit.bias_px};
+  NormalEquations<8> equations;
+  for (const TagObservation& tag : tags)
+    for (const TagObservation::Edge& edge : tag.edges) {
+      std::array<EdgeResidual, 2> residuals;
+      if (std::isinf(edge.sd_px) || !edge_residuals(edge, tag.outward, at, residuals)) continue;
+      for (const EdgeResidual& one : residuals) {
+        const double variance = edge.sd_px * edge.sd_px + model_sd_px * model_sd_px;
+        const double weight = huber(std::abs(one.px) / std::sqrt(variance)).weight / variance;
+        Eigen::Matrix<double, 8, 1> by;
+        by << one.by, one.by_focal;
+        equations.matrix += weight * by * by.transpose();
+        equations.rhs -= weight * one.px * by;
+      }
+    }
+  equations.add_prior(6, fit.bias_px - prior.mean_px, std::max(prior.sd_px, 1e-6));
+  const Eigen::LDLT<Eigen::Matrix<double, 8, 8>> solver(equations.matrix);
+  const Eigen::Matrix<double, 8, 1> last = Eigen::Matrix<double, 8, 1>::Unit(7);
+  return {solver.solve(equations.rhs)(7), std::sqrt(solver.solve(last)(7))};
 }
 
 double tag_rms_px(const TagObservation& tag, const BodyFit& fit) {

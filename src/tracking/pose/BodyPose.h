@@ -83,6 +83,15 @@ double pose_quality(const std::vector<TagObservation>& tags, const BodyFit& fit)
 /// The pose and bias with the smallest robust cost near `start`; sets rms_px and cost.
 BodyFit adjust(const std::vector<TagObservation>& tags, const Pose& start, const BiasPrior& prior);
 
+/// How much longer the focal length is than the camera's file has it, relative to it.
+struct FocalError {
+  double relative = 0, sd = 0;
+};
+/// From the perspective of a body's edges, with its pose and bias unknown. Needs a body that is
+/// large, slanted and known exactly, as a board.
+FocalError focal_error(const std::vector<TagObservation>& tags, const BodyFit& fit,
+                       const BiasPrior& prior);
+
 /// Root mean square distance of a tag's measured points from its edges, pixels.
 double tag_rms_px(const TagObservation& tag, const BodyFit& fit);
 
