@@ -69,16 +69,17 @@ TEST(ToneVerdict, NamesACameraThatBends) {
 
 // Pictures of a camera as the verdicts see them.
 std::vector<CheckResult> verdicts_of(const Optics& optics, const Apparatus& filmed,
-                                     const Apparatus& apparatus) {
+                                     const Apparatus& apparatus, int n_pictures = 5) {
   SyntheticSettings settings;
   settings.optics = optics;
   SyntheticCamera camera(filmed, settings, 3);
   ApparatusCheck check(apparatus);
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < n_pictures; ++i) {
     const double t_s = i / 15.0;
     CameraPicture picture;
     picture.image = camera.picture(out_of_view, t_s, static_cast<std::uint64_t>(i));
     picture.capture_s = t_s;
+    picture.number = i;
     check.see(picture, -1);
   }
   return check.results({}, 15, false);
@@ -104,6 +105,52 @@ TEST(PictureVerdicts, NameBlurNoiseAndSecondPrints) {
   Apparatus doubled = apparatus;
   doubled.board.tags[0].id = doubled.board.tags[7].id;
   EXPECT_EQ(verdict_on("doubles", verdicts_of({}, doubled, apparatus)), CheckVerdict::warning);
+}
+
+TEST(LockVerdicts, HaveALineForEachControl) {
+  CameraMode mode;
+  mode.locked = {"gain 12", "power line 50 Hz"};
+  mode.not_locked = {"dynamic frame rate: the camera takes fewer pictures in dim light; add light"};
+  const auto results = lock_verdicts(mode);
+  ASSERT_EQ(results.size(), 3U);
+  EXPECT_EQ(results[0].name, "gain");
+  EXPECT_EQ(results[0].finding, "locked: 12");
+  EXPECT_EQ(results[1].name, "power line");
+  EXPECT_EQ(results[1].finding, "locked: 50 Hz");
+  EXPECT_EQ(results[2].name, "dynamic frame rate");
+  EXPECT_EQ(results[2].verdict, CheckVerdict::warning);
+}
+
+TEST(StreamVerdicts, NameGhostsFlickerGainAndFocus) {
+  const Apparatus apparatus = default_apparatus(640);
+  const auto usual = verdicts_of({}, apparatus, apparatus, 15);
+  for (const char* name : {"ghosting", "flicker", "gain", "lost pictures", "focal length"})
+    EXPECT_EQ(verdict_on(name, usual), CheckVerdict::ok) << name;
+  const auto verdict_of = [&](const std::string& name, const Optics& optics) {
+    return verdict_on(name, verdicts_of(optics, apparatus, apparatus, 15));
+  };
+  EXPECT_EQ(verdict_of("ghosting", {.last_picture = 0.3}), CheckVerdict::warning);
+  EXPECT_EQ(verdict_of("flicker", {.readout_s = 0.02, .flicker = 0.1}), CheckVerdict::warning);
+  EXPECT_EQ(verdict_of("flicker", {.flicker = 0.1}), CheckVerdict::warning);  // all rows at once
+  EXPECT_EQ(verdict_of("gain", {.flicker = 0.1}), CheckVerdict::ok);
+  EXPECT_EQ(verdict_of("gain", {.auto_gain = 0.2}), CheckVerdict::warning);
+  EXPECT_EQ(verdict_of("flicker", {.auto_gain = 0.2}), CheckVerdict::ok);
+  EXPECT_EQ(verdict_of("lost pictures", {.repeated = 0.3}), CheckVerdict::warning);
+  EXPECT_EQ(verdict_of("focal length", {.breathing = 0.004}), CheckVerdict::warning);
+}
+
+TEST(StreamVerdicts, CountLostPicturesByTimesAndNumbers) {
+  const auto lost = [](const std::vector<int>& times, const std::vector<int>& numbers) {
+    Pictures pictures(times.size());
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      pictures[i].capture_s = times[i] / 30.0;
+      pictures[i].number = numbers[i];
+    }
+    return lost_verdict(pictures).finding;
+  };
+  EXPECT_THAT(lost({0, 1, 2, 4, 5, 8}, {0, 1, 2, 3, 4, 5}), HasSubstr("3 of 9 were lost"));
+  // Pictures that the program was too slow for are not lost by the camera.
+  EXPECT_THAT(lost({0, 1, 2, 4, 5, 8}, {0, 1, 2, 4, 5, 8}), HasSubstr("0 of 9 were lost"));
 }
 
 TEST(BoardVerdict, SaysWhyItMayBeInNoPicture) {

@@ -69,8 +69,12 @@ ApparatusCheck::ApparatusCheck(const Apparatus& apparatus)
 void ApparatusCheck::see(const CameraPicture& picture, double waited_s) {
   LookedAt seen;
   seen.capture_s = picture.capture_s;
+  seen.number = picture.number;
   seen.waited_s = waited_s;
   look_at_light(picture.image, seen);
+  std::vector<double> light = light_of_blocks(picture.image);
+  compare_light(last_light_, light, picture.image.width / light_block_px, seen);
+  last_light_ = std::move(light);
   const double began_s = monotonic_s();
   seen.tracked = tracker_.track(picture.image, picture.capture_s);
   seen.tracked_in_s = monotonic_s() - began_s;
@@ -92,6 +96,8 @@ std::vector<CheckResult> ApparatusCheck::results(const CameraMode& mode, double 
   }
   all.push_back(light_verdict(pictures_));
   all.push_back(noise_verdict(pictures_));
+  for (const auto verdict : {ghosting_verdict, flicker_verdict, gain_verdict, lost_verdict})
+    all.push_back(verdict(pictures_));
   all.push_back(doubles_verdict(pictures_));
   all.push_back(print_scale_verdict(apparatus_.board, "print scale", "board"));
   const auto never = [&](std::optional<Pose> TrackedPicture::*pose) {
@@ -107,6 +113,7 @@ std::vector<CheckResult> ApparatusCheck::results(const CameraMode& mode, double 
                               why(no_board, apparatus_.board, "board", apparatus_.effector)));
   if (!no_board) all.push_back(tone_verdict(apparatus_.camera, tracker_.tone()));
   if (!no_board) all.push_back(sharpness_verdict(pictures_));
+  if (!no_board) all.push_back(breathing_verdict(pictures_));
   all.push_back(jitter_verdict(pictures_));
   if (!apparatus_.effector.tags.empty()) {
     all.push_back(print_scale_verdict(apparatus_.effector, "effector scale", "effector"));

@@ -1,7 +1,7 @@
 // Examines a series of camera pictures and judges whether they suffice for an experiment: camera,
-// locked settings, rate, latency, light, noise, sharpness, doubles, print scale, board, jitter,
-// effector, speed. Each verdict
-// states the finding and what was expected. Runs before a session and in `heft doctor`.
+// locked settings, rate, latency, light, noise, ghosting, flicker, gain, lost pictures, sharpness,
+// doubles, print scale, board, focal length, jitter, effector, speed. Each verdict states the
+// finding and what was expected. Runs before a session and in `heft doctor`.
 #pragma once
 
 #include <string>
@@ -17,12 +17,15 @@ namespace heft {
 /// Measurements of one picture and its processing times.
 struct LookedAt {
   double capture_s = 0;
+  std::int64_t number = 0;    ///< as the camera counts
   double waited_s = -1;       ///< from mid-exposure to delivery; below 0: unknown
   double brightness = 0;      ///< median gray, of 255
   double white_fraction = 0;  ///< of pixels
-  TrackedPicture tracked;     ///< with its stages' times
-  double tracked_in_s = 0;    ///< all stages and the time between them
-  double drawn_in_s = 0;      ///< cubes and clone over the picture
+  /// Light relative to the last picture's, as a logarithm: its median, and its SD over rows.
+  double brighter = 0, banded = 0;
+  TrackedPicture tracked;   ///< with its stages' times
+  double tracked_in_s = 0;  ///< all stages and the time between them
+  double drawn_in_s = 0;    ///< cubes and clone over the picture
 };
 
 /// Wall time within which a picture should be tracked and drawn: 8 ms at 640 x 480 and 15 ms at
@@ -46,7 +49,8 @@ class ApparatusCheck {
   Tracker tracker_;
   SceneDrawing drawing_;
   std::vector<LookedAt> pictures_;
-  Image last_;  ///< the last picture
+  Image last_;                      ///< the last picture
+  std::vector<double> last_light_;  ///< of its blocks
 };
 
 /// Takes pictures until there are enough, or the camera delivers no more.
@@ -60,13 +64,28 @@ std::vector<CheckResult> outlet_verdicts();
 
 using Pictures = std::vector<LookedAt>;
 
-/// One result each for exposure, focus and white balance.
+/// One result for each control: exposure, focus, white balance, gain, power line, dynamic frame
+/// rate.
 std::vector<CheckResult> lock_verdicts(const CameraMode& mode);
 CheckResult rate_verdict(const Pictures& pictures, double wanted_rate_hz);
 CheckResult light_verdict(const Pictures& pictures);
 /// Of the board's edges; pictures without the board do not count.
 CheckResult sharpness_verdict(const Pictures& pictures);
 CheckResult noise_verdict(const Pictures& pictures);
+/// Of the camera's temporal denoising.
+CheckResult ghosting_verdict(const Pictures& pictures);
+CheckResult flicker_verdict(const Pictures& pictures);
+CheckResult gain_verdict(const Pictures& pictures);
+/// Lost or repeated, by the pictures' times and numbers.
+CheckResult lost_verdict(const Pictures& pictures);
+/// Of a lens that refocuses, by the board's perspective.
+CheckResult breathing_verdict(const Pictures& pictures);
+inline constexpr int light_block_px = 16;
+/// Light of a picture's square blocks, row by row, from its first channel.
+std::vector<double> light_of_blocks(const Image& image);
+/// Sets brighter and banded. @param n_across blocks of a row
+void compare_light(const std::vector<double>& before, const std::vector<double>& now, int n_across,
+                   LookedAt& seen);
 /// Second prints with the numbers of the board's or the effector's tags.
 CheckResult doubles_verdict(const Pictures& pictures);
 /// @param name of the result  @param what name of the body in messages
