@@ -7,7 +7,7 @@
 namespace heft {
 
 namespace {
-constexpr int chart_width_px = 1180, chart_height_px = 1580;
+constexpr int chart_width_px = 1180, chart_height_px = 2260;
 constexpr int n_columns = 4;
 
 struct Line {

@@ -20,7 +20,12 @@ constexpr std::array tip_goals{
     FaultGoal{"noise 10", "noise", 10, 1.5},
     FaultGoal{"a third of the light, noise 10", "dim_noise", 0.7, 2.5},
     FaultGoal{"rolling shutter 25 ms, 0.25 m/s", "rolling_25ms", 0.25, 1.2, false},
-    FaultGoal{"rolling shutter 25 ms, 0.5 m/s", "rolling_25ms", 0.5, 2, false}};
+    FaultGoal{"rolling shutter 25 ms, 0.5 m/s", "rolling_25ms", 0.5, 2, false},
+    FaultGoal{"a shadow's edge that takes 60 %", "shadow", 0.6, 1, false},
+    FaultGoal{"30 % of the last picture", "last_picture", 0.3, 1, false},
+    FaultGoal{"focus breathing of 0.4 %", "breathing", 0.4, 1, false},
+    FaultGoal{"defocus of 1.5 px", "defocus", 1.5, 1, false}};
+constexpr double breathing_board_goal_mm = 0.5, found_goal = 90.0 / 96;
 constexpr double board_goal_mm = 0.12, times_better = 6;
 
 double times(const FaultPoint& point) {
@@ -71,6 +76,12 @@ std::vector<Goal> fault_goals(const std::vector<FaultPoint>& points) {
       if (const FaultPoint* point = point_of(points, fault, value, width_px))
         goals.push_back({fmt::format("board in camera, p95, {}{}", what, at), board_goal_mm, "mm",
                          false, or_nan(point->ours.board_mm.p95)});
+    if (const FaultPoint* point = point_of(points, "breathing", 0.4, width_px))
+      goals.push_back({"board in camera, p95, focus breathing of 0.4 %" + at,
+                       breathing_board_goal_mm, "mm", false, or_nan(point->ours.board_mm.p95)});
+    if (const FaultPoint* point = point_of(points, "defocus", 1.5, width_px))
+      goals.push_back({"effector found, defocus of 1.5 px" + at, found_goal, "", true,
+                       point->ours.effector_found});
     if (const auto goal = worst_times(points, width_px)) goals.push_back(*goal);
   }
   return goals;

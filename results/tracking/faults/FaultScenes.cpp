@@ -54,6 +54,43 @@ std::vector<Fault> faults() {
             [](S& s, double speed) { roll(s, 0.010, speed); }),
       fault("rolling_25ms", "rolling shutter, 25 ms (m/s)", {0, 0.1, 0.25, 0.5},
             [](S& s, double speed) { roll(s, 0.025, speed); }),
+      fault("last_picture", "temporal denoising (share of the last picture), 0.25 m/s",
+            {0, 0.15, 0.3, 0.45},
+            [](S& s, double share) {
+              s.settings.optics.last_picture = share;
+              s.speed_m_s = 0.25;
+            }),
+      fault("breathing", "focus breathing (%)", {0, 0.2, 0.4, 0.8},
+            [](S& s, double percent) { s.settings.optics.breathing = percent / 100; }),
+      fault("auto_gain", "automatic gain (amplitude), 0.25 m/s", {0, 0.2, 0.4},
+            [](S& s, double share) {
+              s.settings.optics.auto_gain = share;
+              s.speed_m_s = 0.25;
+            }),
+      fault("auto_white_balance", "automatic white balance (amplitude)", {0, 0.1, 0.3},
+            [](S& s, double share) { s.settings.optics.auto_white_balance = share; }),
+      fault("flicker", "flicker at 100 Hz, rolling shutter 25 ms (amplitude)", {0, 0.1, 0.3},
+            [](S& s, double share) {
+              s.settings.optics.flicker = share;
+              roll(s, 0.025, 0);
+            }),
+      fault("repeated", "repeated pictures (share), rolling shutter 25 ms, 0.25 m/s", {0, 0.2, 0.4},
+            [](S& s, double share) {
+              s.settings.optics.repeated = share;
+              roll(s, 0.025, 0.25);
+            }),
+      fault("dropped", "dropped pictures (share), rolling shutter 25 ms, 0.25 m/s", {0, 0.2, 0.4},
+            [](S& s, double share) {
+              s.settings.optics.dropped = share;
+              roll(s, 0.025, 0.25);
+            }),
+      fault("untimed_drops", "dropped pictures without times (share), 25 ms, 0.25 m/s",
+            {0, 0.2, 0.4},
+            [](S& s, double share) {
+              s.settings.optics.dropped = share;
+              s.has_times = false;
+              roll(s, 0.025, 0.25);
+            }),
       fault("effector_print", "effector's tags printed too large (%)", {0, 0.2, 0.5, 1},
             [](S& s, double percent) { s.settings.files.effector_tag_scale = more_by(percent); }),
       fault("board_print", "board's tags printed too large (%)", {0, 0.2, 0.5, 1},

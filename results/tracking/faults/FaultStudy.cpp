@@ -13,17 +13,22 @@ constexpr std::uint64_t seed = 12;
 // The first pictures tell the camera's tone curve and are not counted; of a moving effector none
 // is that has not been seen before.
 constexpr int unmeasured = 4, run_up = 2, measured_in_motion = 2;
+constexpr int n_measured = 200;           // pictures a point
+constexpr double between_takes_s = 0.37;  // no multiple of what changes over time
 
 struct Moving {
-  Pose grip;
+  Pose grip;  ///< at middle_s
   Eigen::Vector3d velocity_m_s;
+  double middle_s;
 
-  Pose at(double t_s) const { return {grip.position_m + t_s * velocity_m_s, grip.orientation}; }
+  Pose at(double t_s) const {
+    return {grip.position_m + (t_s - middle_s) * velocity_m_s, grip.orientation};
+  }
 };
 
 Moving moving(double speed_m_s, std::uint64_t number) {
   const Take one = take(Motion::stroke, seed, number);
-  return {one.grip, speed_m_s * one.direction};
+  return {one.grip, speed_m_s * one.direction, between_takes_s * static_cast<double>(number)};
 }
 
 // When the row is read in which the effector's center is seen.
@@ -42,15 +47,19 @@ class FaultFilm {
         methods_{make_method(our_method(width_px), scene_.apparatus),
                  make_method(plain_method(width_px), scene_.apparatus)} {}
 
-  void add(int n_first, int n_grips) {
-    for (int i = 0; i < n_first + n_grips; ++i) {
+  // Until so many pictures are measured.
+  void add(int n_first, int n_pictures) {
+    const auto n = static_cast<std::size_t>(n_pictures);
+    for (int i = 0; errors_[0].size() < n; ++i) {
       const auto number = static_cast<std::uint64_t>(i);
       const Moving path = moving(scene_.speed_m_s, number);
       for (const TrackingMethod& method : methods_) method.reset();
+      camera_.restart();
+      n_lost_ = 0;
       const int last = scene_.speed_m_s > 0 ? run_up + measured_in_motion : 1;
       const int middle = last / 2;
       for (int picture = 0; picture < last; ++picture)
-        add_picture(path, (picture - middle) / film_rate_hz,
+        add_picture(path, path.middle_s + (picture - middle) / film_rate_hz,
                     8 * number + static_cast<std::uint64_t>(picture),
                     i >= n_first && (last == 1 || picture >= run_up));
     }
@@ -66,11 +75,14 @@ class FaultFilm {
   }
 
   void add_picture(const Moving& path, double t_s, std::uint64_t number, bool counts) {
+    if (camera_.drops(number)) return static_cast<void>(++n_lost_);
     const double seen_s = t_s + own_row_s(scene_, path, t_s);
+    // By a file without times, a lost picture's time is the next one's.
+    const double late_s = scene_.has_times ? 0 : n_lost_ / film_rate_hz;
     const Image image = camera_.picture([&](double at_s) { return path.at(at_s); }, t_s, number);
     for (std::size_t m = 0; m < methods_.size(); ++m) {
-      const MethodPoses poses = methods_[m].track(image, t_s);
-      const Pose truth = path.at(poses.effector_t_s.value_or(seen_s));
+      const MethodPoses poses = methods_[m].track(image, t_s - late_s);
+      const Pose truth = path.at(poses.effector_t_s ? *poses.effector_t_s + late_s : seen_s);
       if (counts)
         errors_[m].push_back(error_of(poses, scene_.settings.camera_from_board, truth,
                                       tip_of(scene_.apparatus.effector)));
@@ -81,6 +93,7 @@ class FaultFilm {
   SyntheticCamera camera_;
   std::array<TrackingMethod, 2> methods_;
   std::array<std::vector<TrackedError>, 2> errors_;
+  int n_lost_ = 0;  ///< pictures of this take
 };
 
 void write(const std::vector<FaultPoint>& points, const StudyOptions& options) {
@@ -110,11 +123,10 @@ std::vector<FaultPoint> study_faults(const StudyOptions& options, StudyProgress&
   std::vector<FaultPoint> points;
   for (const int width_px : picture_widths_px) {
     progress.next("faults of cameras at " + size_name(width_px));
-    const int n_grips = options.quick ? 1 : width_px == 640 ? 24 : 16;
     for (const Fault& fault : faults())
       for (std::size_t i = 0; i < (options.quick ? 1 : fault.values.size()); ++i) {
         FaultFilm film(fault, fault.values[i], width_px);
-        film.add(options.quick ? 0 : unmeasured, n_grips);
+        film.add(options.quick ? 0 : unmeasured, options.quick ? 1 : n_measured);
         points.push_back({fault.name, fault.values[i], width_px, summary_of(film.errors(0)),
                           summary_of(film.errors(1))});
       }

@@ -13,7 +13,8 @@ namespace heft {
 struct FaultScene {
   Apparatus apparatus;  ///< as its files have it
   SyntheticSettings settings;
-  double speed_m_s = 0;  ///< straight on over the table
+  double speed_m_s = 0;   ///< straight on over the table
+  bool has_times = true;  ///< false: lost pictures leave no gap in the times
 };
 
 struct Fault {
