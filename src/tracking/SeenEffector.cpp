@@ -44,8 +44,9 @@ Velocity SeenEffector::carried_on(const Velocity& mean, double by_pictures) cons
           mean.angular_rad_s + by_pictures * (mean.angular_rad_s - velocity.angular_rad_s)};
 }
 
-SeenEffector SeenEffector::moved_on(double then_s, double then_own_row_s, const Pose& pose) const {
-  const Velocity mean = mean_velocity(board_from_effector, pose, then_s - t_s);
+SeenEffector SeenEffector::moved_on(double then_s, double then_own_row_s, const Pose& pose,
+                                    int n_intervals) const {
+  const Velocity mean = mean_velocity(board_from_effector, pose, n_intervals * (then_s - t_s));
   return {then_s, then_own_row_s, pose, mean, carried_on(mean, 1), n_poses + 1};
 }
 

@@ -28,7 +28,9 @@ struct SeenEffector {
   Velocity carried_on(const Velocity& mean, double by_pictures) const;
 
   /// The state after the next pose, which is at then_s.
-  SeenEffector moved_on(double then_s, double then_own_row_s, const Pose& pose) const;
+  /// @param n_intervals so many times the time that has passed by the clock
+  SeenEffector moved_on(double then_s, double then_own_row_s, const Pose& pose,
+                        int n_intervals) const;
 };
 
 /// Normalizes the quaternion, because rounding would accumulate over pictures.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/Clock.h"
 #include "base/Error.h"
@@ -18,6 +19,7 @@ namespace heft {
 namespace {
 constexpr double usual_blur_px = 0.65;
 constexpr double still_m_s = 0.1, still_rad_s = 1;
+constexpr double out_of_focus_px = 1;
 constexpr double smeared = 1.15;  // relative to the board's blur
 constexpr int board_edge_pixels = 120, effector_edge_pixels = 500;
 constexpr BiasPrior unknown_bias{0, 0.1};
@@ -37,6 +39,8 @@ constexpr int pictures_without_a_close_search = 4;
 
 // Quality of a pose whose tags are seen twice, here and where they were in a lost picture.
 constexpr double doubled_quality = 0.25;
+// ... and of a moving one under a rolling shutter, before its velocity is known.
+constexpr double sheared_quality = 0.25;
 
 // Tags are read again if the pose from edges alone is less certain, for example with a slanted tag
 // half under fingers.
@@ -202,7 +206,10 @@ std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double 
     const auto fit = effector_.find(gray_, detect(detectors_.back(), region), known, result_.times);
     if (fit) return unrolled(*fit, seen_board, prior, t_s);
   }
-  const auto fit = effector_.find(gray_, all_effector_tags(), known, result_.times);
+  auto fit = effector_.find(gray_, all_effector_tags(), known, result_.times);
+  if (!fit && board_.blur_px().mean() > out_of_focus_px)
+    fit = effector_.find(gray_, detect(detectors_.back(), whole(gray_), EdgeSearch::sharpened),
+                         known, result_.times);
   if (!fit) return fit;
   return unrolled(*fit, seen_board, prior, t_s);
 }
@@ -227,26 +234,57 @@ std::optional<Smear> Tracker::smear(const Pose& board_from_effector, const BodyF
 // cell by cell.
 BodyFit Tracker::unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrior& prior,
                           double t_s) {
-  if (!(camera_.readout_s > 0)) {
-    const Pose pose = normalized(seen_board.camera_from_body.inverse() * fit.camera_from_body);
-    return effector_.aligned(gray_, fit, prior, smear(pose, seen_board, t_s), {}, result_.times);
+  n_intervals_ = 1;
+  const auto in_board = [&] {
+    return normalized(seen_board.camera_from_body.inverse() * fit.camera_from_body);
+  };
+  if (!(camera_.readout_s > 0))
+    return effector_.aligned(gray_, fit, prior, smear(in_board(), seen_board, t_s), {},
+                             result_.times);
+  const double own_s = t_s + own_row_s(camera_, fit.camera_from_body);
+  const bool continues = seen_ && own_s > seen_->t_s && seen_->could_be_at(in_board(), own_s);
+  if (continues) {
+    const Velocity velocity = unroll(fit, seen_board, prior, t_s);
+    fit = effector_.aligned(gray_, fit, prior, smear(in_board(), seen_board, t_s), velocity,
+                            result_.times);
+    // The first pose, from which the velocity comes, is itself a mean over rows.
+    if (seen_->n_poses > 1 || velocity.linear_m_s.norm() < still_m_s) return fit;
   }
-  if (!seen_) return fit;
-  Velocity velocity;
-  constexpr int rounds = 2;
-  for (int round = 0; round < rounds; ++round) {
-    const Pose pose = normalized(seen_board.camera_from_body.inverse() * fit.camera_from_body);
-    const double own_s = t_s + own_row_s(camera_, fit.camera_from_body);
-    if (!(own_s > seen_->t_s) || !seen_->could_be_at(pose, own_s)) return fit;
-    const Velocity now =
-        seen_->carried_on(mean_velocity(seen_->board_from_effector, pose, own_s - seen_->t_s), 0.5);
-    const Eigen::Quaterniond& turn = seen_board.camera_from_body.orientation;
-    velocity = {turn * now.linear_m_s, turn * now.angular_rad_s};
-    fit = effector_.solve_moving(fit, velocity, prior, result_.times);
-  }
-  const Pose pose = normalized(seen_board.camera_from_body.inverse() * fit.camera_from_body);
-  return effector_.aligned(gray_, fit, prior, smear(pose, seen_board, t_s), velocity,
-                           result_.times);
+  fit.quality = std::min(fit.quality, sheared_quality);
+  return fit;
+}
+
+// Files without times do not tell of lost pictures. A velocity that has changed suddenly may be
+// that of two or three intervals, which the shear of the rows decides.
+// @return the velocity of the body's origin, in the camera's frame
+Velocity Tracker::unroll(BodyFit& fit, const BodyFit& seen_board, const BiasPrior& prior,
+                         double t_s) {
+  constexpr int rounds = 2, most_intervals = 3;
+  constexpr double sudden = 1.4, clearly_better = 0.7;
+  const Eigen::Quaterniond& turn = seen_board.camera_from_body.orientation;
+  const auto solved = [&](int n_intervals) {
+    std::pair<BodyFit, Velocity> best{fit, {}};
+    for (int round = 0; round < rounds; ++round) {
+      const Pose& camera_from_body = best.first.camera_from_body;
+      const Pose pose = normalized(seen_board.camera_from_body.inverse() * camera_from_body);
+      const double dt_s = t_s + own_row_s(camera_, camera_from_body) - seen_->t_s;
+      const Velocity now = seen_->carried_on(
+          mean_velocity(seen_->board_from_effector, pose, n_intervals * dt_s), 0.5);
+      best.second = {turn * now.linear_m_s, turn * now.angular_rad_s};
+      best.first = effector_.solve_moving(best.first, best.second, prior, result_.times);
+    }
+    return best;
+  };
+  auto best = solved(1);
+  const double speed = best.second.linear_m_s.norm();
+  if (seen_->n_poses > 1 && speed > still_m_s && speed > sudden * seen_->velocity.linear_m_s.norm())
+    for (int n = 2; n <= most_intervals; ++n)
+      if (auto other = solved(n); other.first.cost < clearly_better * best.first.cost) {
+        best = std::move(other);
+        n_intervals_ = n;
+      }
+  fit = best.first;
+  return best.second;
 }
 
 void Tracker::take_board(const std::optional<BodyFit>& fit) {
@@ -269,7 +307,8 @@ void Tracker::take_effector(const BodyFit& fit, double t_s) {
   result_.jump = !seen_ || !seen_->could_be_at(pose, then_s);
   n_unseen_ = 0;
   const bool moves_on = !result_.jump && then_s > seen_->t_s;
-  seen_ = moves_on ? seen_->moved_on(then_s, own_s, pose) : SeenEffector{then_s, own_s, pose};
+  seen_ = moves_on ? seen_->moved_on(then_s, own_s, pose, n_intervals_)
+                   : SeenEffector{then_s, own_s, pose};
   result_.board_from_effector = pose;
   result_.n_effector_tags = fit.n_tags;
   result_.n_effector_faces = fit.n_faces;

@@ -92,6 +92,7 @@ class Tracker {
                              double t_s) const;
   BodyFit unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrior& prior, double t_s);
   TrackedPicture repeated();
+  Velocity unroll(BodyFit& fit, const BodyFit& seen_board, const BiasPrior& prior, double t_s);
   void take_board(const std::optional<BodyFit>& fit);
   void take_effector(const BodyFit& fit, double t_s);
 
@@ -107,6 +108,7 @@ class Tracker {
   Image gray_;
   std::optional<std::vector<DetectedTag>> board_family_tags_;
   TrackedPicture result_;
+  int n_intervals_ = 1;  ///< between pictures since the last one: more if the times miss lost ones
 
   // Of previous pictures:
   std::optional<Pose> last_board_;

@@ -56,7 +56,8 @@ class FaultFilm {
       for (const TrackingMethod& method : methods_) method.reset();
       camera_.restart();
       n_lost_ = 0;
-      const int last = scene_.speed_m_s > 0 ? run_up + measured_in_motion : 1;
+      const bool is_film = scene_.speed_m_s > 0 || scene_.apparatus.camera.readout_s > 0;
+      const int last = is_film ? run_up + measured_in_motion : 1;
       const int middle = last / 2;
       for (int picture = 0; picture < last; ++picture)
         add_picture(path, path.middle_s + (picture - middle) / film_rate_hz,

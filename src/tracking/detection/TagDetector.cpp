@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <opencv2/imgproc.hpp>
 
 #include "tracking/detection/TagFamily.h"
 
@@ -69,6 +70,14 @@ void each_on_grid(const Image& gray, const Take& take) {
                         static_cast<std::size_t>(x)]);
 }
 
+// Unsharp masking gives blurred cells the contrast by which the library reads them.
+void sharpen(cv::Mat picture) {
+  constexpr double sd_px = 1.5, strength = 2;
+  cv::Mat smooth;
+  cv::GaussianBlur(picture, smooth, {}, sd_px);
+  cv::addWeighted(picture, 1 + strength, smooth, -strength, 0, picture);
+}
+
 int searched_contrast(const Image& gray) {
   Histogram values;
   each_on_grid(gray, [&](const std::uint8_t* p) { values.add(p[0]); });
@@ -130,6 +139,8 @@ std::vector<DetectedTag> TagDetector::detect(const Image& gray, const Region& wa
                 &gray.pixels[static_cast<std::size_t>(region.y + y) * gray.row_bytes() +
                              static_cast<std::size_t>(region.x)],
                 row);
+  if (search == EdgeSearch::sharpened)
+    sharpen({region.height, region.width, CV_8UC1, impl_->pixels.data()});
   impl_->detector->qtp.min_white_black_diff =
       search == EdgeSearch::everywhere ? library_contrast : searched_contrast(gray);
   image_u8_t picture{region.width, region.height, region.width, impl_->pixels.data()};

@@ -36,7 +36,8 @@ double noise_of(const Image& gray);
 enum class EdgeSearch {
   above_noise,  ///< above the picture's noise: several times faster, misses only tags in deep
                 ///< shadow
-  everywhere    ///< libapriltag's default: also in noise
+  everywhere,   ///< libapriltag's default: also in noise
+  sharpened     ///< above the noise of the sharpened picture, for one that is out of focus
 };
 
 /// Not thread-safe. Each detector has its own family, without which libapriltag aborts or finds
