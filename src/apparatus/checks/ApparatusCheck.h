@@ -4,6 +4,7 @@
 // finding and what was expected. Runs before a session and in `heft doctor`.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,28 @@ class ApparatusCheck {
 /// Takes pictures until there are enough, or the camera delivers no more.
 std::vector<CheckResult> check_camera(Camera& camera, const Apparatus& apparatus,
                                       double wanted_rate_hz);
+
+/// How late the participant's display shows a frame, by a camera that looks at it
+/// (DisplayDelay.cpp).
+struct DisplayDelay {
+  /// Of each change of the patch that was seen: from the frame's presentation to its light, between
+  /// the last picture without and the first one with it, and to that picture's arrival. A single
+  /// one is uncertain by half the time between pictures; their mean is not, because the changes
+  /// come at random moments.
+  std::vector<double> light_s, picture_s;
+  double between_pictures_s = 0;  ///< median
+  int n_missed = 0;               ///< changes that no picture showed in time
+
+  double mean_light_s() const;
+};
+
+/// Takes half a second for each change.
+/// @param camera live, looking at the display
+/// @param present draws a frame whose patch has the other color; returns when it was presented
+/// @throws Error if no part of the picture changes with the patch, with advice
+DisplayDelay measure_display_delay(Camera& camera, const std::function<double()>& present,
+                                   int n_changes);
+CheckResult delay_verdict(const DisplayDelay& delay);
 
 /// Delays of --events on this machine, of each kind of outlet (OutletDelays.cpp).
 std::vector<CheckResult> outlet_verdicts();

@@ -16,6 +16,7 @@
 #include "apparatus/checks/ApparatusCheck.h"
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "apparatus/sources/PictureSource.h"
+#include "base/Clock.h"
 #include "base/Error.h"
 #include "base/Program.h"
 #include "base/files/TextFile.h"
@@ -31,6 +32,7 @@
 #include "session/Equipment.h"
 #include "session/Session.h"
 #include "tracking/calibration/ShutterCalibration.h"
+#include "tracking/camera/Camera.h"
 #include "tracking/camera/VideoDevices.h"
 #include "view/ArView.h"
 #include "view/Window.h"
@@ -247,6 +249,30 @@ void check_as_before_a_session(Report& report, SessionOptions given, double rate
   if (has_camera) check_shutter(report, config->apparatus.camera);
 }
 
+// With the camera looking at the participant's display.
+void measure_latency(const SessionOptions& given, double rate_hz, int display) {
+  constexpr int n_changes = 60;
+  if (!given.tracker || given.tracker->name != "camera")
+    throw Error("--latency needs the camera that looks at the display: --tracker camera:0",
+                ExitCode::usage);
+  CameraRequest request;
+  request.rate_hz = std::max(request.rate_hz, rate_hz);
+  const auto camera = open_camera(given.tracker->name, given.tracker->what, request);
+  ViewSetup setup;
+  setup.texts = load_texts(texts_file("en"));
+  setup.patch = true;
+  setup.display = display;
+  const auto window = window_module().make(setup);
+  const auto present = [&] {
+    window->wait(0);
+    return window->present({}, {.screen = Screen::setting_up}).value_or(monotonic_s());
+  };
+  const CheckResult result = delay_verdict(measure_display_delay(*camera, present, n_changes));
+  Report report;
+  report.line(result.verdict, result.name, result.finding);
+  if (report.failed()) throw Error("the display's delay was not measured");
+}
+
 void list_cameras(const std::vector<VideoDevice>& devices) {
   print("\ncameras:\n");
   for (const VideoDevice& device : devices) {
@@ -311,14 +337,15 @@ void add_doctor(Command& app) {
     std::string db = "heft.db", responder;
     SessionOptions given;
     double rate_hz = 15;
-    bool list = false;
+    bool list = false, latency = false;
+    int display = 0;
   };
   const auto options = std::make_shared<DoctorOptions>();
   Command command = app.add_command(
       "doctor", "check this machine and a camera; list trackers, views, responders",
       {"heft doctor", "heft doctor --list", "heft doctor --tracker camera:0",
        "heft doctor --tracker camera:0 --camera-file camera.yaml --board board.toml",
-       "heft doctor --responder simulated"});
+       "heft doctor --tracker camera:0 --latency", "heft doctor --responder simulated"});
   command.add_option("--db", &options->db, "the log to check, and whose folder").shows_default();
   add_plug(command, "--tracker", options->given.tracker,
            "examine this camera: camera:N, video:FILE, frames:FOLDER");
@@ -328,9 +355,15 @@ void add_doctor(Command& app) {
       .shows_default();
   command.add_flag("--list", options->list,
                    "only list cameras, trackers, views, simulators and responders");
+  command.add_flag("--latency", options->latency,
+                   "only measure how late the display shows a frame, with --tracker camera:N "
+                   "looking at the patch in its lower corner");
+  command.add_option("--display", &options->display, "number of that display").shows_default();
   command.add_option("--responder", &options->responder, "only describe its parameters");
   command.does([options] {
     if (options->list) return list_plugs();
+    if (options->latency)
+      return measure_latency(options->given, options->rate_hz, options->display);
     if (options->responder.empty()) return diagnose(options->db, options->given, options->rate_hz);
     const std::string text = describe_parameters(responder_named(options->responder));
     print("{}", text.empty() ? "it has no parameters\n" : text);
