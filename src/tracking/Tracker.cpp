@@ -254,7 +254,7 @@ BodyFit Tracker::unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrio
   return fit;
 }
 
-// Files without times do not tell of lost pictures. A velocity that has changed suddenly may be
+// Files without times do not show lost pictures. A velocity that has changed suddenly may be
 // that of two or three intervals, which the shear of the rows decides.
 // @return the velocity of the body's origin, in the camera's frame
 Velocity Tracker::unroll(BodyFit& fit, const BodyFit& seen_board, const BiasPrior& prior,

@@ -148,6 +148,12 @@ class Apparatus(unittest.TestCase):
         self.assertEqual((run.returncode, run.stdout), (4, ""))
         self.assertEqual(self.calibrate_camera("webcam:0").returncode, 2)
 
+    def test_the_displays_delay_needs_a_camera_that_looks_at_it(self):
+        run = self.heft("doctor", "--latency")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("--tracker camera:0", run.stderr)
+        self.assertEqual(self.heft("doctor", "--latency", "--tracker", "camera:97").returncode, 4)
+
     def test_calibrating_once_more_keeps_the_earlier_file(self):
         _, pdf = self.sheet("board")
         subprocess.run(["pdftoppm", "-r", "45", "-f", "1", "-singlefile", "-gray", pdf,

@@ -54,7 +54,6 @@ class FaultFilm {
       const auto number = static_cast<std::uint64_t>(i);
       const Moving path = moving(scene_.speed_m_s, number);
       for (const TrackingMethod& method : methods_) method.reset();
-      camera_.restart();
       n_lost_ = 0;
       const bool is_film = scene_.speed_m_s > 0 || scene_.apparatus.camera.readout_s > 0;
       const int last = is_film ? run_up + measured_in_motion : 1;

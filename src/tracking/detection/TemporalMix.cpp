@@ -20,7 +20,8 @@ constexpr double most_variance = 1.6;           // of a block, relative to the m
 constexpr int least_places = 20;                // in a block
 constexpr std::size_t least_blocks = 30;
 constexpr double least_share = 0.06, most_share = 0.9;
-constexpr double memory = 0.95;  // of the sums, per picture
+constexpr double rounding_variance = 2 / 12.0;  // of two pixels, between d(n - 1) and d(n - 2)
+constexpr double memory = 0.95;                 // of the sums, per picture
 constexpr double regular = 1.5;  // a longer gap, relative to the usual one, has lost pictures
 
 // Products of differences at places where two nearby pixels have about the same light: the
@@ -78,7 +79,7 @@ void TemporalMix::learn(double noise) {
   after_next_ *= memory;
   for (const NoiseSums& sums : blocks)
     if (sums.variance() <= most) {
-      next_ += sums.next;
+      next_ += sums.next + rounding_variance * sums.n;
       after_next_ += sums.after_next;
     }
   const double share = next_ < 0 ? after_next_ / next_ : 0;

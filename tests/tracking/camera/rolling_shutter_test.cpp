@@ -142,8 +142,8 @@ TEST(RollingShutter, ATrackerThatIsToldOfItFollowsMotion) {
   EXPECT_GT(untold.worst_m, 0.003);
 }
 
-// Files without times do not tell of lost pictures; the shear of the rows does.
-TEST(RollingShutter, ItsShearTellsOfLostPictures) {
+// Files without times do not show lost pictures; the shear of the rows does.
+TEST(RollingShutter, ItsShearShowsLostPictures) {
   for (const int n_lost : {1, 2}) {
     const Found found = tracked(true, n_lost);
     EXPECT_GE(found.n, 18);
