@@ -12,6 +12,9 @@ namespace heft {
 
 namespace {
 constexpr std::size_t n_needed = 4;  // pictures, for three differences
+// A camera's first picture is not denoised. While its noise falls, cov(d(n - 1), d(n - 2)) is near
+// zero.
+constexpr int pictures_of_start = 8;
 constexpr int block_px = 24, stride_px = 3, apart_px = 2;
 constexpr std::uint8_t black = 2, white = 253;  // beyond, noise is clipped
 constexpr int most_step = 24;                   // gray levels between the two pixels of a place
@@ -62,7 +65,7 @@ void TemporalMix::reset() {
 }
 
 void TemporalMix::learn(double noise) {
-  if (noise < least_noise) return;
+  if (n_taken_ <= pictures_of_start || noise < least_noise) return;
   std::array<const Image*, n_needed> pictures{};
   for (std::size_t i = 0; i < n_needed; ++i) pictures[i] = &seen_[i].gray;
   std::vector<NoiseSums> blocks;
@@ -115,6 +118,7 @@ Image TemporalMix::cleared(Image gray, double t_s, double noise) {
   repeats_ = !seen_.empty() && seen_.front().gray.pixels == gray.pixels;
   if (repeats_) return gray;
   seen_.push_front({std::move(gray), t_s});
+  ++n_taken_;
   if (seen_.size() > n_needed) seen_.pop_back();
   const Image& now = seen_.front().gray;
   leaves_ghost_ = false;

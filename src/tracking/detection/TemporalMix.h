@@ -49,6 +49,7 @@ class TemporalMix {
   std::deque<Seen> seen_;             ///< the last pictures, the newest first
   double next_ = 0, after_next_ = 0;  ///< covariances of d(n - 2), summed
   double share_ = 0;
+  int n_taken_ = 0;            ///< pictures, in all
   std::size_t n_regular_ = 0;  ///< pictures without a gap before them
   bool repeats_ = false, leaves_ghost_ = false;
   double usual_gap_s_ = 0;
