@@ -141,7 +141,9 @@ TEST(AutoPromise, IsKeptInScenesOfAnotherSeed) {
     const double share = group == "boxes, even" ? 0.99 : group == "boxes, uneven" ? 0.97 : 0.92;
     const double outside = (1 - share) * count.n;
     EXPECT_LE(count.n - count.n_within, outside + 3 * std::sqrt(outside * share) + 1) << group;
-    if (share < 0.95) EXPECT_EQ(count.n_tolerated, count.n) << group;
+    if (share < 0.95) {
+      EXPECT_EQ(count.n_tolerated, count.n) << group;
+    }
   }
 }
 

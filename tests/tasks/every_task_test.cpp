@@ -187,7 +187,9 @@ TEST(OwnFriction, OfCubesIsLoggedDisplayedAndReplayed) {
   for (const CubeRow& cube : reader.cubes(stored.id())) {
     if (!cube.table_friction || !cube.peak_lag_m) continue;
     const double product_g = *cube.table_friction * cube.mass_g;
-    if (tasks[cube.attempt_index] == "sorting") EXPECT_NEAR(product_g, 80, 1e-9);
+    if (tasks[cube.attempt_index] == "sorting") {
+      EXPECT_NEAR(product_g, 80, 1e-9);
+    }
     lags_mm[static_cast<int>(std::lround(product_g))].push_back(1e3 * *cube.peak_lag_m);
   }
   ASSERT_TRUE(lags_mm.contains(20) && lags_mm.contains(80) && lags_mm.contains(320));
