@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "inference/Fit.h"
+#include "inference/IndecisionLikelihood.h"
 #include "inference/MaximumLikelihood.h"
 #include "psychophysics/ObserverModels.h"
 
 namespace heft {
 
 namespace {
-enum Answer : std::size_t { reference, none, comparison };
 enum Unknown : Eigen::Index { sensitivity, indecision, bias, lapse };
 constexpr std::array<const char*, 4> indecision_names{"sensitivity", "indecision", "bias", "lapse"};
 
@@ -25,7 +25,7 @@ struct LevelAxis {
   explicit LevelAxis(const AnswersByLevel& answers) {
     const double n_trials = trials_in(answers);
     for (const auto& [level, n] : answers)
-      mean_g += level * ((n[reference] + n[none] + n[comparison]) / n_trials);
+      mean_g += level * ((n[0] + n[1] + n[2]) / n_trials);
     const double furthest_g = std::max(std::abs(answers.begin()->first - mean_g),
                                        std::abs(answers.rbegin()->first - mean_g));
     if (furthest_g > 0) unit_g = furthest_g;
@@ -40,85 +40,33 @@ struct LevelAxis {
   double mean_g = 0, unit_g = 1;
 };
 
-// Only those that were given: most levels of a staircase have one answer alone, and the others'
-// shares would cost as much.
-IndecisionShares shares_of_given(const IndecisionParameters& parameters, double level,
-                                 const std::array<double, 3>& n) {
-  if (n[none] > 0) return indecision_shares(parameters, level);
-  const double felt = parameters.sensitivity * level + parameters.bias;
-  const auto share = [&](double z) {
-    return parameters.lapse / 3 + (1 - parameters.lapse) * normal_cdf(z);
-  };
-  return {n[reference] > 0 ? share(-felt - parameters.indecision) : 0, 0,
-          n[comparison] > 0 ? share(felt - parameters.indecision) : 0};
-}
-
-// What is felt beyond the upper and beyond the lower criterion, and the lapse rate: on these alone
-// the shares of a level depend.
-struct ByCriteria {
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-};
-
-ByCriteria by_criteria(const std::array<LogShare, 3>& shares, const IndecisionShares& p, double up,
-                       double down, double lapse_rate) {
-  const double attentive = 1 - lapse_rate;
-  const double up_density = normal_density(up), down_density = normal_density(down);
-  // How the shares of reference, none and comparison change with up, down and the lapse rate.
-  const double to_up = attentive * up_density, to_down = attentive * down_density;
-  const auto by_lapse = [&](double share) { return (1.0 / 3 - share) / attentive; };
-  const std::array<Eigen::Vector3d, 3> slopes{Eigen::Vector3d(0, -to_down, by_lapse(p.reference)),
-                                              Eigen::Vector3d(-to_up, to_down, by_lapse(p.none)),
-                                              Eigen::Vector3d(to_up, 0, by_lapse(p.comparison))};
-  ByCriteria found;
-  for (std::size_t k = 0; k < shares.size(); ++k) {
-    if (shares[k].slope == 0) continue;  // not given
-    found.first += shares[k].slope * slopes[k];
-    found.second += shares[k].bend * slopes[k] * slopes[k].transpose();
-  }
-  const double at_up = shares[comparison].slope - shares[none].slope;
-  const double at_down = shares[none].slope - shares[reference].slope;
-  found.second(0, 0) -= at_up * up * to_up;
-  found.second(1, 1) -= at_down * down * to_down;
-  found.second(0, 2) = found.second(2, 0) -= at_up * up_density;
-  found.second(1, 2) = found.second(2, 1) -= at_down * down_density;
-  return found;
-}
-
-struct Level {
-  double level = 0;  // on the axis
-  std::array<double, 3> n{};
-};
-
-std::vector<Level> levels_of(const AnswersByLevel& answers, const LevelAxis& axis) {
-  std::vector<Level> levels;
+std::vector<LevelAnswers> levels_of(const AnswersByLevel& answers, const LevelAxis& axis) {
+  std::vector<LevelAnswers> levels;
   for (const auto& [level_g, n] : answers) levels.push_back({axis(level_g), n});
   return levels;
 }
 
 // Sensitivity and bias are on the axis here: bias is what is felt at the mean level.
-double log_likelihood(std::span<const Level> levels, const Parameters& at,
+double log_likelihood(std::span<const LevelAnswers> levels, const Parameters& at,
                       Derivatives* derivatives) {
   const IndecisionParameters parameters{at[sensitivity], at[indecision], at[bias], at[lapse]};
   double sum = 0;
+  if (!derivatives) {
+    for (const LevelAnswers& level : levels) sum += level_log_likelihood(parameters, level);
+    return sum;
+  }
   Eigen::Vector4d gradient = Eigen::Vector4d::Zero();
   Eigen::Matrix4d hessian = Eigen::Matrix4d::Zero();
-  for (const auto& [level, n] : levels) {
-    const IndecisionShares p = shares_of_given(parameters, level, n);
-    const std::array<LogShare, 3> shares{log_share(n[reference], p.reference),
-                                         log_share(n[none], p.none),
-                                         log_share(n[comparison], p.comparison)};
-    for (const LogShare& share : shares) sum += share.value;
-    if (!derivatives) continue;
-    const double felt = at[sensitivity] * level + at[bias];
-    const ByCriteria by =
-        by_criteria(shares, p, felt - at[indecision], felt + at[indecision], at[lapse]);
+  for (const LevelAnswers& answers : levels) {
+    const LevelLikelihood by = level_likelihood(parameters, answers);
+    sum += by.value;
+    const double x = answers.level;
     Eigen::Matrix<double, 4, 3> change;  // of up, down and the lapse rate with each parameter
-    change << level, level, 0, -1, 1, 0, 1, 1, 0, 0, 0, 1;
+    change << x, x, 0, -1, 1, 0, 1, 1, 0, 0, 0, 1;
     gradient += change.lazyProduct(by.first);
     hessian += change.lazyProduct(by.second).eval().lazyProduct(change.transpose());
   }
-  if (derivatives) *derivatives = {gradient, hessian};
+  *derivatives = {gradient, hessian};
   return sum;
 }
 
@@ -152,7 +100,7 @@ std::vector<Parameters> steep_starts(const AnswersByLevel& answers, const LevelA
 std::vector<std::vector<Parameters>> starts(const AnswersByLevel& answers, const LevelAxis& axis,
                                             const ParameterBounds& lapses) {
   const auto n = totals(answers);
-  const double undecided = std::clamp(n[none] / trials_in(answers), 0.02, 0.98);
+  const double undecided = std::clamp(n[none_answer] / trials_in(answers), 0.02, 0.98);
   const double half_width = normal_quantile((1 + undecided) / 2);
   if (lapses.high == 0)  // log-concave (Pratt 1981)
     return {{Parameters(Eigen::Vector4d(0, half_width, 0, 0))}};
@@ -171,7 +119,7 @@ std::vector<std::vector<Parameters>> starts(const AnswersByLevel& answers, const
   return all;
 }
 
-LikelihoodFit maximize_turned(const std::vector<Level>& levels, const Eigen::Matrix4d& turn,
+LikelihoodFit maximize_turned(const std::vector<LevelAnswers>& levels, const Eigen::Matrix4d& turn,
                               const std::vector<ParameterBounds>& bounds,
                               std::vector<std::vector<Parameters>> starts) {
   for (std::vector<Parameters>& group : starts)
@@ -207,7 +155,7 @@ Parameters values(const LikelihoodFit& fit) {
 // All but the bias are searched on the axis, and the bias where that is at level 0.
 LikelihoodFit maximize(const AnswersByLevel& answers, const LevelAxis& axis,
                        const std::vector<ParameterBounds>& bounds) {
-  const std::vector<Level> levels = levels_of(answers, axis);
+  const std::vector<LevelAnswers> levels = levels_of(answers, axis);
   const Eigen::Matrix4d turn = turn_to(axis(0));
   std::vector<ParameterBounds> for_bias = bounds, for_others = bounds;
   for (std::size_t i = 0; i < bounds.size(); ++i)

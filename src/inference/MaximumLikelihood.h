@@ -1,5 +1,5 @@
 // Parameters at which data are most likely, with standard errors and profile intervals, for any
-// model of at most four parameters that knows its log likelihood and derivatives.
+// model of at most seven parameters that knows its log likelihood and derivatives.
 //
 // Standard errors are from the observed information, over the parameters that lie at no bound. A
 // profile interval holds the values v with 2 (max log L - max log L given v) <= the 95 % quantile
@@ -21,9 +21,9 @@ inline constexpr double interval_drop = 3.841458820694124 / 2;
 /// What falls less than this is as likely: finer than any figure is read.
 inline constexpr double same_log_likelihood = 1e-6;
 
-/// A point among the parameters, or a slope there; at most four, so that nothing is allocated.
-using Parameters = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
-using Curvature = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4, 4>;
+/// A point among the parameters, or a slope there; at most seven, so that nothing is allocated.
+using Parameters = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 7, 1>;
+using Curvature = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 7, 7>;
 
 /// The first and second derivatives of a log likelihood.
 struct Derivatives {

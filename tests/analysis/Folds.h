@@ -12,7 +12,7 @@
 #include "analysis/dataset/Participants.h"
 #include "analysis/dataset/ProtocolChoices.h"
 #include "analysis/dataset/Quality.h"
-#include "analysis/dataset/Sensitivity.h"
+#include "analysis/measures/Sensitivity.h"
 
 namespace heft {
 

@@ -11,7 +11,7 @@
 
 namespace heft::made_up {
 
-/// One person: see PooledSensitivity.h for the model.
+/// One person: see MixedIndecision.h for the model.
 struct Chooser {
   double sensitivity_per_g = 0;  ///< 0: sees nothing
   double indecision = 1, side_bias = 0;

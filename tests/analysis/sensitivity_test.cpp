@@ -1,6 +1,6 @@
 // Sensitivity, free of the criterion: what was put in is found, its interval holds it as often as
 // it says, and people who see nothing get no threshold.
-#include "analysis/dataset/Sensitivity.h"
+#include "analysis/measures/Sensitivity.h"
 
 #include <gmock/gmock.h>
 
@@ -34,24 +34,29 @@ std::vector<SessionData> study(int n_people, const Population& population,
   return sessions;
 }
 
-struct PooledCoverage {
+std::optional<Interval> interval_of(const std::optional<MixedFigure>& figure) {
+  return figure ? std::optional(Interval{figure->low.value_or(0), figure->high.value_or(1e9)})
+                : std::nullopt;
+}
+
+struct FitCoverage {
   Coverage threshold, indecision, own;  ///< own: each person's sensitivity
 };
 
-PooledCoverage pooled_coverage(int n_people, const Population& population,
+FitCoverage fit_coverage(int n_people, const Population& population,
                                const ComparisonDesign& design, int studies) {
   RandomStream stream(17, "thresholds", static_cast<std::uint64_t>(n_people));
-  PooledCoverage found;
+  FitCoverage found;
   for (int i = 0; i < studies; ++i) {
     std::vector<Chooser> people;
     const auto rows = sensitivities_of(study(n_people, population, {design}, stream, &people));
     for (std::size_t k = 0; k < people.size(); ++k) {
-      const OwnSensitivity& own = rows.at(0).pooled.people.at(std::to_string(100 + k));
+      const OwnSensitivity& own = rows.at(0).fit.people.at(std::to_string(100 + k));
       found.own.add(Interval{own.low.value_or(-1e9), own.high.value_or(1e9)},
                     people[k].sensitivity_per_g);
     }
-    found.threshold.add(rows.at(0).pooled.threshold_interval_g, population.threshold_75_g);
-    found.indecision.add(rows.at(0).pooled.indecision_interval, population.indecision);
+    found.threshold.add(interval_of(rows.at(0).fit.threshold_75_g), population.threshold_75_g);
+    found.indecision.add(interval_of(rows.at(0).fit.indecision), population.indecision);
   }
   return found;
 }
@@ -84,19 +89,19 @@ TEST(Sensitivity, IsFoundWhateverTheCriterion) {
   for (const double indecision : {0.3, 1.0, 2.5}) {
     const auto rows =
         sensitivities_of(study(200, {150, 0.3, indecision}, {recommended_at(200)}, stream));
-    ASSERT_TRUE(rows.at(0).pooled.identifiable()) << rows.at(0).pooled.why;
+    ASSERT_TRUE(rows.at(0).fit.identifiable()) << rows.at(0).fit.why;
     // 4 SE, and 5 % of bias where the criterion is far out
-    EXPECT_NEAR(*rows[0].pooled.threshold_75_g, 150, indecision > 2 ? 20 : 12);
-    EXPECT_NEAR(*rows[0].pooled.indecision, indecision, 0.12 * indecision);
+    EXPECT_NEAR(rows[0].fit.threshold_75_g->value, 150, indecision > 2 ? 20 : 12);
+    EXPECT_NEAR(rows[0].fit.indecision->value, indecision, 0.12 * indecision);
   }
 }
 
 TEST(Sensitivity, OfFewPeopleIsNotPrinted) {
   RandomStream stream(6, "few");
   const auto rows = sensitivities_of(study(3, {150}, {recommended_at(200)}, stream));
-  EXPECT_FALSE(rows.at(0).pooled.identifiable());
-  EXPECT_FALSE(rows[0].pooled.threshold_75_g.has_value());
-  EXPECT_THAT(rows[0].pooled.why, HasSubstr("3 participants are too few"));
+  EXPECT_FALSE(rows.at(0).fit.identifiable());
+  EXPECT_FALSE(rows[0].fit.threshold_75_g.has_value());
+  EXPECT_THAT(rows[0].fit.why, HasSubstr("3 participants are too few"));
 }
 
 TEST(Sensitivity, OfOnePersonIsThatPersonsOwn) {
@@ -104,9 +109,9 @@ TEST(Sensitivity, OfOnePersonIsThatPersonsOwn) {
   SessionData data = session(1, "a");
   for (int i = 0; i < 6; ++i) compare(data, {0.6745 / 100}, recommended_at(200), stream);
   const auto rows = sensitivities_of({&data, 1});
-  ASSERT_TRUE(rows.at(0).pooled.identifiable()) << rows[0].pooled.why;
-  EXPECT_LT(rows[0].pooled.threshold_interval_g->low, 100);
-  EXPECT_GT(rows[0].pooled.threshold_interval_g->high, 100);
+  ASSERT_TRUE(rows.at(0).fit.identifiable()) << rows[0].fit.why;
+  EXPECT_LT(*rows[0].fit.threshold_75_g->low, 100);
+  EXPECT_GT(*rows[0].fit.threshold_75_g->high, 100);
 }
 
 // Below 0 the reference is the heavier cube: it is chosen as often as the comparison above 0.
@@ -122,32 +127,62 @@ TEST(ChoiceCurves, TheModelIsTheSameOnBothSidesOfZero) {
   EXPECT_THAT(script, Not(HasSubstr("*x-")));
 }
 
-// Of two ratios one may be off by chance twice as often as the only one.
-TEST(Hypotheses, ProportionIsDeniedAsOneStatementOfTwoRatios) {
-  PooledSensitivity light, heavy, heaviest;
-  light.n = heavy.n = heaviest.n = 13;
-  light.sensitivity = std::exp(1);
-  heavy.sensitivity = heaviest.sensitivity = 1;
-  light.threshold_75_g = heavy.threshold_75_g = heaviest.threshold_75_g = z_75;
-  for (int i = 0; i < 2000; ++i) {
-    light.sensitivity_samples.push_back(std::exp(2.0 * i / 2000));
-    heavy.sensitivity_samples.push_back(1);
-    heaviest.sensitivity_samples.push_back(1);
-  }
-  const auto verdict = [&](double ratio) {
+// A threshold that is known to some factor, from people who say so independently.
+MixedFit known(double threshold_75_g, double sd_log, const std::string& of) {
+  MixedFit fit;
+  fit.n = 13;
+  fit.threshold_75_g = MixedFigure{threshold_75_g, threshold_75_g / 2, threshold_75_g * 2};
+  for (int i = 0; i < 13; ++i)
+    fit.influence[of + std::to_string(i)] = sd_log / 13 * (i % 2 == 0 ? 1 : -1);
+  return fit;
+}
+
+TEST(Hypotheses, FollowTheExponentOfThresholds) {
+  const auto verdicts = [](const std::array<double, 3>& thresholds_g, double sd_log) {
     Summary summary = summarize({"x.db", {}}, "");
-    const auto row = [](double reference_g, const PooledSensitivity& pooled) {
-      return ReferenceSensitivity{{reference_g, "C2"}, pooled, true};
-    };
-    put_sensitivities(summary.estimates, std::vector{row(100, light), row(100 * ratio, heavy),
-                                                     row(100 * ratio, heaviest)});
-    return hypotheses_of(summary).at(4).verdict;
+    std::vector<ReferenceSensitivity> rows;
+    for (std::size_t i = 0; i < 3; ++i)
+      rows.push_back({{std::array{15.0, 200.0, 800.0}[i], "C2"},
+                      known(thresholds_g[i], sd_log, std::to_string(i) + "."),
+                      true});
+    put_sensitivities(summary.estimates, rows);
+    const auto all = hypotheses_of(summary);
+    return std::pair(all.at(3).verdict, all.at(4).verdict);
   };
-  const Interval one = threshold_ratio_interval(light, heavy);
-  const Interval of_two = threshold_ratio_interval(light, heavy, 0.975);
-  ASSERT_LT(one.high, of_two.high);
-  EXPECT_EQ(verdict((one.high + of_two.high) / 2), HypothesisVerdict::inconclusive);
-  EXPECT_EQ(verdict(1.1 * of_two.high), HypothesisVerdict::not_supported);
+  using enum HypothesisVerdict;
+  EXPECT_EQ(verdicts({90, 140, 375}, 0.2), std::pair(supported, not_supported));
+  EXPECT_EQ(verdicts({15, 200, 800}, 0.2), std::pair(supported, supported));
+  EXPECT_EQ(verdicts({100, 100, 100}, 0.2), std::pair(inconclusive, not_supported));
+  EXPECT_EQ(verdicts({800, 200, 15}, 0.2), std::pair(not_supported, not_supported));
+  EXPECT_EQ(verdicts({90, 140, 375}, 20), std::pair(inconclusive, inconclusive));
+}
+
+TEST(ThresholdContrast, OfTwoIndependentThresholdsHasTheirVariancesSum) {
+  const MixedFit light = known(100, 0.3, "a"), heavy = known(200, 0.3, "b");
+  const ThresholdContrast ratio =
+      threshold_contrast(std::array{&light, &heavy}, std::array{-1.0, 1.0});
+  EXPECT_NEAR(ratio.value, std::log(2), 1e-12);
+  EXPECT_EQ(ratio.n, 26);
+  EXPECT_NEAR(ratio.standard_error, 0.3 / 13 * 26 / std::sqrt(25), 1e-12);
+  EXPECT_NEAR(ratio.interval().high - ratio.value, 2.0595 * ratio.standard_error, 1e-4);
+  EXPECT_NEAR(ratio.smallest_effect(), (2.0595 + 0.8562) * ratio.standard_error, 1e-4);
+}
+
+// The same people in both: what they have in common cancels.
+TEST(ThresholdContrast, OfTheSamePeopleKeepsWhatDiffers) {
+  const MixedFit light = known(100, 0.3, "a"), heavy = known(200, 0.3, "a");
+  const ThresholdContrast ratio =
+      threshold_contrast(std::array{&light, &heavy}, std::array{-1.0, 1.0});
+  EXPECT_EQ(ratio.n, 13);
+  EXPECT_NEAR(ratio.standard_error, 0, 1e-12);
+}
+
+TEST(ThresholdExponent, IsTheSlopeOfLogThresholdOnLogReference) {
+  const MixedFit light = known(10, 0.3, "a"), middle = known(20, 0.3, "b"),
+                 heavy = known(40, 0.3, "c");
+  const ThresholdContrast slope =
+      threshold_exponent(std::array{&light, &middle, &heavy}, std::array{100.0, 400.0, 1600.0});
+  EXPECT_NEAR(slope.value, 0.5, 1e-12);
 }
 
 TEST(CoverageOf, Sensitivities) {
@@ -159,7 +194,7 @@ TEST(CoverageOf, Sensitivities) {
         std::tuple{13, Population{150, 0.3, 2}, 200.0},
         std::tuple{40, Population{150, 0.3, 2}, 200.0}}) {
     const auto [threshold, indecision, own] =
-        pooled_coverage(n_people, population, recommended_at(reference_g), studies);
+        fit_coverage(n_people, population, recommended_at(reference_g), studies);
     std::cout << n_people << " people, threshold " << population.threshold_75_g << " g, spread "
               << population.spread << ": " << threshold.percent() << " % of "
               << threshold.given_percent() << " % given; indecision " << population.indecision
@@ -171,6 +206,12 @@ TEST(CoverageOf, Sensitivities) {
     EXPECT_GE(own.percent(), 93 - by_chance_percent(own.n_given()));
     EXPECT_LE(own.percent(), 98 + by_chance_percent(own.n_given()));
   }
+}
+
+Interval ratio_interval(const MixedFit& first, const MixedFit& second) {
+  const auto [low, high] =
+      threshold_contrast(std::array{&first, &second}, std::array{-1.0, 1.0}).interval();
+  return {std::exp(low), std::exp(high)};
 }
 
 // At one reference 150 g, at the other 600 g, of people who keep their sensitivity or don't.
@@ -191,8 +232,8 @@ TEST(CoverageOf, ThresholdRatios) {
           compare(sessions.back(), heavy, recommended_at(800), stream);
         }
         const auto rows = sensitivities_of(sessions);
-        if (rows.at(0).pooled.identifiable() && rows.at(1).pooled.identifiable())
-          found.add(threshold_ratio_interval(rows[0].pooled, rows[1].pooled), 4);
+        if (rows.at(0).fit.identifiable() && rows.at(1).fit.identifiable())
+          found.add(ratio_interval(rows[0].fit, rows[1].fit), 4);
       }
       std::cout << "ratio of thresholds of " << (same ? "the same" : "independent")
                 << " sensitivities, indecision " << indecision << ": " << found.percent()
@@ -220,7 +261,7 @@ TEST(Sensitivity, ARatioIsOfTheSamePeopleWhoeverIsMissing) {
   }
   const auto width = [](const std::vector<SessionData>& sessions) {
     const auto rows = sensitivities_of(sessions);
-    const Interval ratio = threshold_ratio_interval(rows.at(0).pooled, rows.at(1).pooled);
+    const Interval ratio = ratio_interval(rows.at(0).fit, rows.at(1).fit);
     return std::log(ratio.high / ratio.low);
   };
   EXPECT_LT(width(missing), 2 * width(all));

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "analysis/measures/Section.h"
-#include "inference/PooledSensitivity.h"
+#include "inference/MixedIndecision.h"
 
 namespace heft {
 
@@ -160,11 +160,13 @@ std::string model_curves(const Summary& summary, const StudyEstimate& of) {
     return find_estimate(summary.estimates, measure,
                          {{"condition", of.condition}, {"reference_g", reference}});
   };
-  const StudyEstimate *sensitivity = of_model("sensitivity"), *indecision = of_model("indecision");
+  const StudyEstimate *sensitivity = of_model("sensitivity"), *indecision = of_model("indecision"),
+                      *lapse = of_model("lapse_rate");
   if (!sensitivity || !sensitivity->why.empty() || !indecision->value) return "";
   const double s = *sensitivity->value, t = *indecision->value;
-  const auto share = [](const std::string& z) {
-    return fmt::format("100*({0}/3 + (1-{0})*norm({1}))", fixed_lapse, z);
+  const double lapses = lapse->value.value_or(fixed_lapse);
+  const auto share = [lapses](const std::string& z) {
+    return fmt::format("100*({0}/3 + (1-{0})*norm({1}))", lapses, z);
   };
   // Below 0 the reference is the heavier one.
   const std::string heavier = share(fmt::format("{}*abs(x)-{}", s, t));

@@ -1,10 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "analysis/report/Notes.h"
-#include "inference/PooledSensitivity.h"
+#include "inference/MixedIndecision.h"
 
 namespace heft {
 
@@ -172,41 +173,50 @@ std::string threshold_figures(const std::vector<const StudyEstimate*>& threshold
   return text;
 }
 
+// Of the growth with the reference of thresholds that are comparable.
+const StudyEstimate& exponent_of(const Summary& summary) {
+  return *papers(summary, "threshold_exponent").front();
+}
+
+std::string exponent_figure(const StudyEstimate& exponent) {
+  return fmt::format("threshold ~ reference^{:.2f} [{:.2f}, {:.2f}]", *exponent.value,
+                     *exponent.low, *exponent.high);
+}
+
+// An ordered trend: log threshold on log reference, over participants.
 Judgment judge_rising(const Summary& summary) {
   const auto thresholds = papers(summary, "threshold_75");
   if (const std::string why = why_not_comparable(thresholds); !why.empty())
     return {HypothesisVerdict::inconclusive, why};
-  const std::string figures = threshold_figures(thresholds);
-  if (std::ranges::all_of(papers(summary, "threshold_ratio"),
-                          [](const StudyEstimate* ratio) { return *ratio->low > 1; }))
-    return {HypothesisVerdict::supported, figures + ": each larger than the one before"};
-  if (std::ranges::any_of(papers(summary, "threshold_ratio_of_several"),
-                          [](const StudyEstimate* ratio) { return *ratio->high < 1; }))
-    return {HypothesisVerdict::not_supported, figures + ": one is smaller than the one before"};
-  return {HypothesisVerdict::inconclusive, figures + ": their intervals do not separate them"};
+  const StudyEstimate& exponent = exponent_of(summary);
+  const std::string figures = fmt::format(
+      "{}; {}; a study of this size and spread finds exponents of {:.2f} or more in 80 % of cases",
+      threshold_figures(thresholds), exponent_figure(exponent),
+      *papers(summary, "smallest_threshold_exponent").front()->value);
+  if (*exponent.low > 0) return {HypothesisVerdict::supported, figures + ": they increase"};
+  if (*exponent.high < 0) return {HypothesisVerdict::not_supported, figures + ": they decrease"};
+  return {HypothesisVerdict::inconclusive, figures + ": the interval contains 0"};
 }
 
-// Proportional: from each reference to the next the threshold grows as the reference does, within
-// a factor of 1.5.
+// Proportional: the exponent is 1, within what makes a factor of 1.5 from a reference to the next.
 Judgment judge_proportional(const Summary& summary) {
   const auto thresholds = papers(summary, "threshold_75");
   if (const std::string why = why_not_comparable(thresholds); !why.empty())
     return {HypothesisVerdict::inconclusive, why};
-  constexpr double near = 1.5;
-  const std::string figures = threshold_figures(thresholds);
-  const auto expected = [](const StudyEstimate& ratio) {
-    return *ratio.reference_g / *ratio.at("lighter_reference_g")->value;
-  };
-  if (std::ranges::all_of(papers(summary, "threshold_ratio"), [&](const StudyEstimate* ratio) {
-        return *ratio->low >= expected(*ratio) / near && *ratio->high <= expected(*ratio) * near;
-      }))
-    return {HypothesisVerdict::supported, figures + ": in proportion within a factor of 1.5"};
-  if (std::ranges::any_of(
-          papers(summary, "threshold_ratio_of_several"), [&](const StudyEstimate* ratio) {
-            return *ratio->low > expected(*ratio) || *ratio->high < expected(*ratio);
-          }))
-    return {HypothesisVerdict::not_supported, figures + ": not in proportion to the reference"};
-  return {HypothesisVerdict::inconclusive, figures + ": the intervals are too wide"};
+  const StudyEstimate& exponent = exponent_of(summary);
+  const double steps = static_cast<double>(thresholds.size()) - 1;
+  const double mean_step =
+      std::log(*thresholds.back()->reference_g / *thresholds.front()->reference_g) / steps;
+  const double margin = std::log(1.5) / mean_step;
+  const std::string figures =
+      fmt::format("{}; {}; exponents in [{:.2f}, {:.2f}] are within a factor of 1.5 from each "
+                  "reference to the next",
+                  threshold_figures(thresholds), exponent_figure(exponent), 1 - margin, 1 + margin);
+  if (*exponent.low >= 1 - margin && *exponent.high <= 1 + margin)
+    return {HypothesisVerdict::supported, figures + ": proportional"};
+  if (*exponent.low > 1 || *exponent.high < 1)
+    return {HypothesisVerdict::not_supported, figures + ": the interval does not contain 1"};
+  return {HypothesisVerdict::inconclusive, figures + ": the interval is too wide"};
 }
 
 Judgment not_run(std::string_view what) {

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "analysis/dataset/Sensitivity.h"
+#include "analysis/measures/Sensitivity.h"
 #include "analysis/measures/Section.h"
 #include "analysis/report/Notes.h"
 
@@ -22,11 +22,14 @@ constexpr Measure sensitivity{
 constexpr Measure indecision{"indecision", "SD", "criterion half-width",
                              "half the width between the median participant's criteria, in SDs of "
                              "the internal noise"};
-constexpr Measure ratio{"threshold_ratio", "", "ratio of thresholds",
-                        "threshold at a reference over the threshold at the next lighter one"};
-constexpr Measure ratio_of_several{"threshold_ratio_of_several", "", "ratio of thresholds",
-                                   "ratio of thresholds with a simultaneous interval over the "
-                                   "condition's ratios (Bonferroni)"};
+constexpr Measure lapse{"lapse_rate", "", "lapse rate",
+                        "share of trials answered at random, shared by all participants"};
+constexpr Measure sensitivity_sd{"sd_log_sensitivity", "", "spread",
+                                 "SD between participants of the logarithm of the sensitivity"};
+constexpr Measure threshold_at_lapse{
+    "threshold_at_lapse", "g", "threshold",
+    "75 %-correct discrimination threshold if the lapse rate were this, where it is not "
+    "identifiable"};
 constexpr Measure jnd_by_start{
     "jnd_by_start", "g", "JND",
     "a participant's JND by whether the staircases started above or below"};
@@ -39,41 +42,29 @@ StudyEstimate estimate_at(const Measure& measure, const Compared& compared) {
   return {&measure, "comparison", compared.condition, compared.reference_g};
 }
 
-void put_pooled(Estimates& all, const ReferenceSensitivity& row) {
-  const PooledSensitivity& pooled = row.pooled;
-  const auto put = [&](const Measure& measure, const std::optional<double>& value,
-                       const std::optional<Interval>& interval) {
+void put_fit(Estimates& all, const ReferenceSensitivity& row) {
+  const MixedFit& fit = row.fit;
+  const auto put = [&](const Measure& measure, const std::optional<MixedFigure>& figure) {
     StudyEstimate& estimate = all.emplace_back(estimate_at(measure, row.compared));
-    estimate.value = value;
-    estimate.set(interval);
-    estimate.n = pooled.n;
-    estimate.n_trials = static_cast<int>(pooled.n_trials);
-    estimate.method = "indecision model, bootstrap over participants";
-    estimate.why = pooled.why;
+    estimate.n = fit.n;
+    estimate.n_trials = static_cast<int>(fit.n_trials);
+    estimate.method = fit.n > 1 ? "mixed indecision model, profile likelihood"
+                                : "indecision model, profile likelihood";
+    estimate.why = fit.why;
     estimate.as_published = row.as_published;
+    if (!figure) return;
+    estimate.value = figure->value;
+    estimate.low = figure->low;
+    estimate.high = figure->high;
   };
-  put(threshold, pooled.threshold_75_g, pooled.threshold_interval_g);
-  put(sensitivity, pooled.sensitivity, pooled.sensitivity_interval);
-  put(indecision, pooled.indecision, pooled.indecision_interval);
-}
-
-// What one ratio of several is to show has more chances to come about by chance (Bonferroni).
-void put_ratios(Estimates& all, const std::vector<const ReferenceSensitivity*>& rows) {
-  const double n_ratios = static_cast<double>(rows.size()) - 1;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const PooledSensitivity &lighter = rows[i - 1]->pooled, &heavier = rows[i]->pooled;
-    if (!lighter.identifiable() || !heavier.identifiable()) continue;
-    for (const auto& [measure, confidence] :
-         {std::pair(&ratio, confidence_level),
-          std::pair(&ratio_of_several, 1 - (1 - confidence_level) / n_ratios)}) {
-      StudyEstimate& estimate = all.emplace_back(estimate_at(*measure, rows[i]->compared));
-      estimate.by = {at("lighter_reference_g", rows[i - 1]->compared.reference_g)};
-      estimate.value = *heavier.threshold_75_g / *lighter.threshold_75_g;
-      estimate.set(threshold_ratio_interval(lighter, heavier, confidence));
-      estimate.n = heavier.n;
-      estimate.method = "bootstrap over participants";
-      estimate.as_published = rows[i]->as_published;
-    }
+  put(threshold, fit.threshold_75_g);
+  put(sensitivity, fit.sensitivity);
+  put(indecision, fit.indecision);
+  put(lapse, fit.lapse);
+  if (fit.sd_log_sensitivity) put(sensitivity_sd, MixedFigure{*fit.sd_log_sensitivity});
+  for (const auto& [rate, threshold_g] : fit.at_lapse) {
+    put(threshold_at_lapse, MixedFigure{threshold_g});
+    all.back().by = {at("lapse", rate)};
   }
 }
 
@@ -83,8 +74,8 @@ using Key = std::pair<Compared, std::string>;
 const OwnSensitivity* own_of(const Key& key, const std::vector<ReferenceSensitivity>& all) {
   const auto reference = std::ranges::find(all, key.first, &ReferenceSensitivity::compared);
   if (reference == all.end()) return nullptr;
-  const auto own = reference->pooled.people.find(key.second);
-  return own == reference->pooled.people.end() ? nullptr : &own->second;
+  const auto own = reference->fit.people.find(key.second);
+  return own == reference->fit.people.end() ? nullptr : &own->second;
 }
 
 using Results = std::vector<const StaircaseResult*>;
@@ -154,17 +145,29 @@ EstimateTable sensitivity_table() {
        column(sensitivity, Field::value, "sensitivity_per_g", "", 5),
        json_column(sensitivity, Field::low, "sensitivity_low_per_g"),
        json_column(sensitivity, Field::high, "sensitivity_high_per_g"),
+       column(lapse, Field::value, "lapse_rate", "lapse rate", 3),
+       column(lapse, Field::low, "lapse_rate_low"),
+       column(lapse, Field::high, "lapse_rate_high"),
+       column(sensitivity_sd, Field::value, "sd_log_sensitivity", "", 2),
        json_column(threshold, Field::n_trials, "n_trials"),
        json_column(threshold, Field::identifiable, "identifiable"),
        column(threshold, Field::why, "why", "no threshold: why")},
-      "indecision model (left, none, right; lapse rate .02) with criteria and side bias of each "
-      "participant's own; the median participant's threshold of a forced choice, free of the "
-      "criterion. Interval: bootstrap over participants. Criterion half-width: half the width "
-      "between the median participant's criteria in SDs of the internal noise. Thresholds that are "
-      "not "
-      "identifiable are not printed.",
+      "mixed indecision model (left, none, right): each participant has a sensitivity, a criterion "
+      "half-width and a side bias; a lapse rate is shared. Threshold: of the median participant in "
+      "a forced choice, free of the criterion. Criterion half-width: in SDs of the internal noise. "
+      "Intervals: profile likelihood. Thresholds that are not identifiable are not printed.",
       TablePlace::results,
       "sensitivity[]"};
+}
+
+EstimateTable lapse_table() {
+  return {"thresholds_at_lapse_rates",
+          "Thresholds at lapse rates, where these are not identifiable",
+          {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+           key_column("lapse", "lapse rate"),
+           column(threshold_at_lapse, Field::value, "threshold_75_g", "threshold g")},
+          "answers fit lapse rates up to .2; the threshold depends on the rate as shown",
+          TablePlace::results};
 }
 
 EstimateTable threshold_table() {
@@ -253,7 +256,8 @@ class SensitivitySection final : public Section {
   }
 
   std::vector<EstimateTable> tables() const override {
-    return {sensitivity_table(), threshold_table()};
+    return {sensitivity_table(), lapse_table(), threshold_ratio_table(),
+            threshold_exponent_table(), threshold_table()};
   }
 
   std::vector<ChartSpec> charts() const override {
@@ -313,21 +317,16 @@ class SensitivitySection final : public Section {
 }  // namespace
 
 std::vector<ReferenceSensitivity> sensitivities_of(const ComparisonTrials& trials) {
-  const std::set<std::string> study(trials.participants().begin(), trials.participants().end());
   std::vector<ReferenceSensitivity> all;
   for (const auto& [compared, theirs] : trials.by_compared())
-    all.push_back({compared, pooled_sensitivity(answers_by_side(trials, compared), study),
+    all.push_back({compared, fit_mixed_indecision(answers_by_side(trials, compared)),
                    trials.as_published(compared)});
   return all;
 }
 
 void put_sensitivities(Estimates& all, std::span<const ReferenceSensitivity> rows) {
-  std::map<std::pair<std::string, bool>, std::vector<const ReferenceSensitivity*>> conditions;
-  for (const ReferenceSensitivity& row : rows) {
-    put_pooled(all, row);
-    conditions[{row.compared.condition, row.as_published}].push_back(&row);
-  }
-  for (const auto& [condition, of_condition] : conditions) put_ratios(all, of_condition);
+  for (const ReferenceSensitivity& row : rows) put_fit(all, row);
+  put_threshold_contrasts(all, rows);
 }
 
 std::shared_ptr<Section> sensitivity_section() {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/Random.h"
-#include "inference/PooledSensitivity.h"
+#include "inference/MixedIndecision.h"
 
 namespace heft {
 namespace {
@@ -44,14 +44,8 @@ People people_like(const Observer& observer, int n_people, int n_per_level = 5) 
   return people;
 }
 
-PooledSensitivity pooled(const People& people) {
-  std::set<std::string> study;
-  for (const auto& [name, answers] : people) study.insert(name);
-  return pooled_sensitivity(people, study);
-}
-
 std::vector<OwnThreshold> own_of(const People& people) {
-  const PooledSensitivity all = pooled(people);
+  const MixedFit all = fit_mixed_indecision(people);
   std::vector<OwnThreshold> own;
   for (const auto& [name, answers] : people) {
     const auto found = all.people.find(name);
@@ -64,9 +58,9 @@ std::vector<OwnThreshold> own_of(const People& people) {
 void expect_no_threshold(const Observer& observer, const std::string& reason) {
   for (const int n_people : {1, 6}) {
     const People people = people_like(observer, n_people, 10);
-    const PooledSensitivity found = pooled(people);
+    const MixedFit found = fit_mixed_indecision(people);
     EXPECT_THAT(found.why, HasSubstr(reason)) << n_people;
-    EXPECT_FALSE(found.threshold_75_g || found.threshold_interval_g) << n_people;
+    EXPECT_FALSE(found.threshold_75_g) << n_people;
   }
   for (const int n_people : {1, 3, 6})
     for (const OwnThreshold& own : own_of(people_like(observer, n_people, 10))) {
@@ -75,13 +69,16 @@ void expect_no_threshold(const Observer& observer, const std::string& reason) {
     }
 }
 
-TEST(PooledSensitivity, FindsWhatWasPutIn) {
-  const PooledSensitivity found = pooled(people_like({200, 1.5}, 12, 10));
+TEST(MixedIndecision, FindsWhatWasPutIn) {
+  const MixedFit found = fit_mixed_indecision(people_like({200, 1.5}, 12, 10));
   ASSERT_TRUE(found.identifiable()) << found.why;
-  EXPECT_NEAR(*found.threshold_75_g, 200, 30);
-  EXPECT_NEAR(*found.indecision, 1.5, 0.2);
-  EXPECT_LT(found.threshold_interval_g->low, 200);
-  EXPECT_GT(found.threshold_interval_g->high, 200);
+  EXPECT_NEAR(found.threshold_75_g->value, 200, 30);
+  EXPECT_NEAR(found.indecision->value, 1.5, 0.2);
+  EXPECT_LT(*found.threshold_75_g->low, 200);
+  EXPECT_GT(*found.threshold_75_g->high, 200);
+  EXPECT_LT(*found.indecision->low, 1.5);
+  EXPECT_GT(*found.indecision->high, 1.5);
+  EXPECT_LT(found.lapse->value, 0.06);
   for (const OwnThreshold& own : own_of(people_like({200, 1.5}, 12, 10))) {
     ASSERT_TRUE(own.threshold_75_g.has_value()) << own.why;
     EXPECT_LT(own.interval_g->low, *own.threshold_75_g);
@@ -91,9 +88,8 @@ TEST(PooledSensitivity, FindsWhatWasPutIn) {
 
 TEST(NoThreshold, WhereNoCubeWasEverChosen) {
   expect_no_threshold({0, 1e9, 0}, "no cube was ever chosen");
-  const PooledSensitivity found = pooled(people_like({0, 1e9, 0}, 6));
-  EXPECT_FALSE(found.sensitivity || found.sensitivity_interval);
-  EXPECT_FALSE(found.indecision || found.indecision_interval);
+  const MixedFit found = fit_mixed_indecision(people_like({0, 1e9, 0}, 6));
+  EXPECT_FALSE(found.sensitivity || found.indecision);
 }
 
 // Criteria beyond all levels: the few choices are lapses.
@@ -108,16 +104,16 @@ TEST(NoThreshold, WhereTheLikelihoodIsFlat) {
       RandomStream stream(seed, "lapses");
       for (int i = 0; i < 2; ++i)
         people["P1" + std::to_string(i)][levels_g[stream.below(12)]] = {1.0 * i, 2, 1.0 - i};
-      const PooledSensitivity found = pooled(people);
+      const MixedFit found = fit_mixed_indecision(people);
       EXPECT_THAT(found.why, StartsWith("flat likelihood")) << n_people;
-      EXPECT_FALSE(found.sensitivity || found.sensitivity_interval || found.indecision);
+      EXPECT_FALSE(found.sensitivity || found.indecision);
       for (const OwnThreshold& own : own_of(people)) EXPECT_NE(own.why, "");
     }
   AnswersByLevel one;
   for (const double level_g : levels_g) one[level_g][1] = one[-level_g][1] = 2;
   one[100] = {0, 1, 1};
   EXPECT_THAT(own_threshold(one, nullptr).why, StartsWith("flat likelihood"));
-  EXPECT_THAT(pooled({{"P1", one}}).why, StartsWith("flat likelihood"));
+  EXPECT_THAT(fit_mixed_indecision({{"P1", one}}).why, StartsWith("flat likelihood"));
   const OwnSensitivity no_end{0.001};
   EXPECT_THAT(own_threshold(one, &no_end).why, StartsWith("flat likelihood"));
 }
@@ -129,11 +125,11 @@ TEST(NoThreshold, WhereTheLevelsPartTheAnswers) {
       people["P" + std::to_string(i)][level_g][level_g > 320 ? 2 : 1] = 5;
       people["P" + std::to_string(i)][-level_g][level_g > 320 ? 0 : 1] = 5;
     }
-  EXPECT_THAT(pooled(people).why, StartsWith("complete separation"));
+  EXPECT_THAT(fit_mixed_indecision(people).why, StartsWith("complete separation"));
   for (const OwnThreshold& own : own_of(people))
     EXPECT_THAT(own.why, StartsWith("complete separation"));
   people.erase(std::next(people.begin()), people.end());
-  EXPECT_THAT(pooled(people).why, StartsWith("complete separation"));
+  EXPECT_THAT(fit_mixed_indecision(people).why, StartsWith("complete separation"));
   EXPECT_THAT(own_of(people).at(0).why, StartsWith("complete separation"));
 }
 
@@ -143,7 +139,7 @@ TEST(NoThreshold, WhereAnswersGoAgainstTheLevel) {
 
 TEST(NoThreshold, WhereTheIntervalHoldsNone) {
   for (const int n_people : {1, 6})
-    EXPECT_THAT(pooled(people_like({0, 0.6}, n_people, 10)).why,
+    EXPECT_THAT(fit_mixed_indecision(people_like({0, 0.6}, n_people, 10)).why,
                 StartsWith("no reliable sensitivity"));
   int n = 0;
   for (const OwnThreshold& own : own_of(people_like({0, 0.6}, 6, 10)))
@@ -152,7 +148,7 @@ TEST(NoThreshold, WhereTheIntervalHoldsNone) {
 }
 
 TEST(NoThreshold, WhereItsIntervalExceedsTheLevels) {
-  EXPECT_THAT(pooled(people_like({900, 0.6}, 6, 20)).why,
+  EXPECT_THAT(fit_mixed_indecision(people_like({900, 0.6}, 6, 20)).why,
               HasSubstr("beyond twice the largest level shown"));
   const OwnSensitivity weak{0.001, 0.0001, 0.002};
   EXPECT_THAT(own_threshold(people_like({200}, 1).at("P10"), &weak).why,
@@ -163,23 +159,23 @@ TEST(NoThreshold, WhereItsIntervalExceedsTheLevels) {
 
 TEST(NoThreshold, OfTooFewPeopleOrTrials) {
   for (const int n_people : {2, 4})
-    EXPECT_THAT(pooled(people_like({150}, n_people)).why,
+    EXPECT_THAT(fit_mixed_indecision(people_like({150}, n_people)).why,
                 StartsWith(std::to_string(n_people) + " participants are too few"));
-  EXPECT_EQ(pooled({}).why, "there are no trials");
+  EXPECT_EQ(fit_mixed_indecision({}).why, "there are no trials");
   const People few{{"P1", {{-50, {1, 1, 0}}, {50, {0, 1, 2}}}}};
-  EXPECT_THAT(pooled(few).why, HasSubstr("5 trials are too few"));
+  EXPECT_THAT(fit_mixed_indecision(few).why, HasSubstr("5 trials are too few"));
   EXPECT_THAT(own_of(few).at(0).why, HasSubstr("5 trials are too few"));
-  EXPECT_EQ(pooled({{"P1", {{0, {5, 5, 5}}}}}).why, "no trial had a difference");
+  EXPECT_EQ(fit_mixed_indecision({{"P1", {{0, {5, 5, 5}}}}}).why, "no trial had a difference");
 }
 
 // What most samples of people hold says nothing.
-TEST(PooledSensitivity, OfOnePersonsChoicesAmongManyIsNone) {
+TEST(MixedIndecision, OfOnePersonsChoicesAmongManyIsNone) {
   People people = people_like({150, 1, 0}, 1, 10);
   for (int i = 0; i < 5; ++i)
     for (const double level_g : levels_g)
       people["Q" + std::to_string(i)][level_g][1] = people["Q" + std::to_string(i)][-level_g][1] =
           5;
-  const PooledSensitivity found = pooled(people);
+  const MixedFit found = fit_mixed_indecision(people);
   EXPECT_FALSE(found.threshold_75_g.has_value());
   EXPECT_NE(found.why, "");
 }

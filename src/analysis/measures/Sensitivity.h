@@ -1,5 +1,5 @@
 // How well masses are discriminated at each reference, whatever the criterion: see
-// PooledSensitivity.h.
+// MixedIndecision.h.
 #pragma once
 
 #include <span>
@@ -8,21 +8,27 @@
 #include "analysis/dataset/ComparisonTrials.h"
 #include "analysis/dataset/Dataset.h"
 #include "analysis/dataset/StudyEstimate.h"
-#include "inference/PooledSensitivity.h"
+#include "analysis/report/EstimateTable.h"
+#include "inference/MixedIndecision.h"
 
 namespace heft {
 
 struct ReferenceSensitivity {
   Compared compared;
-  PooledSensitivity pooled;
+  MixedFit fit;
   bool as_published = false;  ///< compared at a reference and in the technique of the paper
 };
 
 /// By reference, lightest first, and condition; participants' sessions together.
 std::vector<ReferenceSensitivity> sensitivities_of(const ComparisonTrials& trials);
 
-/// Threshold, sensitivity and criterion of each, and the ratios of thresholds at neighboring
-/// references.
+/// Threshold, sensitivity, criterion and lapse rate of each, and how they compare.
 void put_sensitivities(Estimates& all, std::span<const ReferenceSensitivity> rows);
+
+// How identifiable thresholds compare; in ThresholdContrasts.cpp.
+
+void put_threshold_contrasts(Estimates& all, std::span<const ReferenceSensitivity> rows);
+EstimateTable threshold_ratio_table();
+EstimateTable threshold_exponent_table();
 
 }  // namespace heft

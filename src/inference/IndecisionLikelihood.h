@@ -1,0 +1,35 @@
+// The likelihood of answers in the indecision model at one level, with its derivatives: what the fit
+// of one file (IndecisionFit.cpp) and the mixed model over people (MixedIndecision.h) share.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "psychophysics/ObserverModels.h"
+
+namespace heft {
+
+/// Places of the answers in a level's counts.
+enum IndecisionAnswer : std::size_t { reference_answer, none_answer, comparison_answer };
+
+/// How often each answer was given at one level.
+struct LevelAnswers {
+  double level = 0;
+  std::array<double, 3> n{};
+};
+
+/// Log likelihood of one level's answers, and its derivatives by up = felt - criterion, by down =
+/// felt + criterion and by the lapse rate. On these alone the probabilities depend.
+struct LevelLikelihood {
+  double value = 0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+};
+
+double level_log_likelihood(const IndecisionParameters& parameters, const LevelAnswers& answers);
+LevelLikelihood level_likelihood(const IndecisionParameters& parameters,
+                                 const LevelAnswers& answers);
+
+}  // namespace heft

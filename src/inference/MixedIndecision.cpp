@@ -1,0 +1,269 @@
+#include "inference/MixedIndecision.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "inference/PopulationLikelihood.h"
+
+namespace heft {
+
+namespace {
+AnswersByLevel together(const AnswersByPerson& people) {
+  AnswersByLevel sum;
+  for (const auto& [participant, answers] : people)
+    for (const auto& [level_g, n] : answers)
+      for (std::size_t k = 0; k < n.size(); ++k) sum[level_g][k] += n[k];
+  return sum;
+}
+
+// In units of the largest level; mirrored: as if larger levels had been answered as smaller.
+std::vector<LevelAnswers> on_scale(const AnswersByLevel& by_level, double largest_g,
+                                   bool mirrored = false) {
+  std::vector<LevelAnswers> answers;
+  for (const auto& [level_g, n] : by_level)
+    answers.push_back({(mirrored ? -level_g : level_g) / largest_g, n});
+  return answers;
+}
+
+std::vector<std::vector<LevelAnswers>> on_scale(const AnswersByPerson& people, double largest_g,
+                                                bool mirrored = false) {
+  std::vector<std::vector<LevelAnswers>> all;
+  for (const auto& [participant, answers] : people)
+    all.push_back(on_scale(answers, largest_g, mirrored));
+  return all;
+}
+
+/// Sensitivities per largest level: dense around 0, and up to thresholds of a four-hundredth of it.
+constexpr std::size_t n_places = 56, place_of_0 = 20;
+double sensitivity_at(double place) {
+  return 0.5 * std::sinh(0.2 * (place - static_cast<double>(place_of_0)));
+}
+using Profile = std::array<double, n_places>;
+
+// One person's log likelihood of sensitivities, as in a population that has only this one, whatever
+// the criterion of others with it.
+Profile profile_of(const AnswersByLevel& by_level, double largest_g, Parameters population) {
+  constexpr double none = -9;  // log of a sensitivity that is as good as 0
+  population[arctanh_correlation] = 0;
+  population[log_sd_sensitivity] = std::log(1e-3);
+  Profile profile{};
+  const auto put = [&](PersonIntegral& person, std::size_t place) {
+    const double s = std::abs(sensitivity_at(static_cast<double>(place)));
+    population[mean_log_sensitivity] = s > 0 ? std::log(s) : none;
+    profile[place] = person.laplace(population);
+  };
+  PersonIntegral upwards(on_scale(by_level, largest_g));
+  PersonIntegral downwards(on_scale(by_level, largest_g, true));
+  for (std::size_t place = place_of_0; place < n_places; ++place) put(upwards, place);
+  for (std::size_t place = place_of_0; place-- > 0;) put(downwards, place);
+  return profile;
+}
+
+// The place of the highest, by the parabola through the three highest.
+double top_of(const Profile& values) {
+  const auto best = std::ranges::max_element(values);
+  const double place = static_cast<double>(best - values.begin());
+  if (best == values.begin() || best == values.end() - 1) return place;
+  const double before = *(best - 1), after = *(best + 1), bend = before - 2 * *best + after;
+  return bend < 0 ? place + (before - after) / (2 * bend) : place;
+}
+
+// Where the likelihood has fallen far enough; none: nowhere on this side.
+std::optional<double> end_of(const Profile& values, double drop, std::ptrdiff_t direction) {
+  const auto best = std::ranges::max_element(values);
+  const double least = *best - drop;
+  const auto last = direction < 0 ? values.begin() : values.end() - 1;
+  for (auto inner = best; inner != last; inner += direction) {
+    const double here = *inner, next = *(inner + direction);
+    if (next <= least)
+      return static_cast<double>(inner - values.begin()) +
+             static_cast<double>(direction) * (here - least) / (here - next);
+  }
+  return std::nullopt;
+}
+
+// As far as Student's t goes instead of the normal distribution, with a degree of freedom less for
+// sensitivity, criterion and bias each: of 30 trials the chi-square quantile holds too little.
+double drop_of(double n_trials) {
+  const double t = student_t_quantile(std::max(n_trials - 3, 1.0), confidence_level);
+  return t * t / 2;
+}
+
+OwnSensitivity own_sensitivity(const AnswersByLevel& answers, double largest_g,
+                               const Parameters& population) {
+  const Profile profile = profile_of(answers, largest_g, population);
+  const double drop = drop_of(trials_in(answers));
+  const auto at = [largest_g](double place) { return sensitivity_at(place) / largest_g; };
+  OwnSensitivity own{at(top_of(profile))};
+  if (const auto place = end_of(profile, drop, -1)) own.low = at(*place);
+  if (const auto place = end_of(profile, drop, 1)) own.high = at(*place);
+  return own;
+}
+
+MixedFigure figure(double log_value, const PopulationLikelihood::ProfileInterval& logs,
+                   double unit = 1) {
+  MixedFigure found{std::exp(log_value) * unit};
+  if (logs.low) found.low = std::exp(*logs.low) * unit;
+  if (logs.high) found.high = std::exp(*logs.high) * unit;
+  return found;
+}
+
+// Of one person alone: where the likelihood itself says.
+void put_single(MixedFit& found, const AnswersByLevel& answers) {
+  const Fit fit = fit_indecision(answers, {.lapse = fixed_lapse});
+  const auto put = [&](std::optional<MixedFigure>& into, const char* name) {
+    const FittedParameter& one = fit.parameter(name);
+    if (one.value) into = MixedFigure{*one.value, one.low, one.high};
+  };
+  found.why = fit.why;
+  found.log_likelihood = fit.log_likelihood.value_or(0);
+  put(found.sensitivity, "sensitivity");
+  if (found.sensitivity) put(found.indecision, "indecision");
+  if (found.identifiable()) put(found.threshold_75_g, "threshold_75_g");
+}
+
+// Of the sensitivity per g. Where larger levels answered as smaller are as likely, there is none, or
+// it is negative.
+SensitivityRange range_of(const Maximum& best, const PopulationLikelihood::ProfileInterval& logs,
+                          const AnswersByPerson& people, double largest_g) {
+  const auto per_g = [largest_g](const std::optional<double>& log_sensitivity, double sign) {
+    return log_sensitivity ? std::optional(sign * std::exp(*log_sensitivity) / largest_g)
+                           : std::nullopt;
+  };
+  if (!logs.low && !logs.high) return {};
+  PopulationLikelihood mirrored(on_scale(people, largest_g, true), std::nullopt);
+  Maximum down = mirrored.maximum();
+  if (down.log_likelihood < best.log_likelihood)
+    return {per_g(logs.low, 1), per_g(logs.high, 1), logs.low && !logs.high};
+  const auto [low, high] = mirrored.interval(down, mean_log_sensitivity);
+  if (low) return {per_g(high, -1), per_g(low, -1)};
+  return {per_g(high, -1), per_g(logs.high, 1)};
+}
+
+// Scaled to the width of the profile interval: the jackknife's own standard error is too small where
+// people have few trials (its interval covered 88 to 94 %).
+void put_influence(MixedFit& found, const AnswersByPerson& people, const std::vector<double>& influences) {
+  const double n = found.n;
+  double square = 0;
+  for (const double influence : influences) square += influence * influence;
+  const double half_width = std::log(*found.threshold_75_g->high / *found.threshold_75_g->low) / 2;
+  const double se = half_width / student_t_quantile(n - 1);
+  const double scale = -se / std::sqrt(square * n / (n - 1));  // of the threshold, not sensitivity
+  for (std::size_t i = 0; const auto& [participant, answers] : people)
+    found.influence[participant] = scale * influences[i++];
+}
+
+void put_population(MixedFit& found, const AnswersByPerson& people, double largest_g) {
+  PopulationLikelihood likelihood(on_scale(people, largest_g), std::nullopt);
+  Maximum best = likelihood.maximum();
+  const auto log_sensitivity = likelihood.interval(best, mean_log_sensitivity);
+  const auto log_criterion = likelihood.interval(best, mean_log_criterion);
+  const auto lapse = likelihood.interval(best, shared_lapse);
+  found.log_likelihood = best.log_likelihood;
+  found.why = why_no_threshold(range_of(best, log_sensitivity, people, largest_g), {largest_g});
+  if (!log_sensitivity.high) return;  // nor are there criteria
+  for (const auto& [participant, answers] : people)
+    found.people[participant] = own_sensitivity(answers, largest_g, best.at);
+  found.indecision = figure(best.at[mean_log_criterion], log_criterion);
+  found.lapse = MixedFigure{best.at[shared_lapse], lapse.low.value_or(0), lapse.high};
+  if (!found.identifiable()) return;
+  found.sensitivity = figure(best.at[mean_log_sensitivity], log_sensitivity, 1 / largest_g);
+  found.threshold_75_g = MixedFigure{z_75 / found.sensitivity->value,
+                                     z_75 / *found.sensitivity->high,
+                                     z_75 / *found.sensitivity->low};
+  found.sd_log_sensitivity = std::exp(best.at[log_sd_sensitivity]);
+  found.sd_log_indecision = std::exp(best.at[log_sd_criterion]);
+  found.correlation = std::tanh(best.at[arctanh_correlation]);
+  found.sd_bias = std::exp(best.at[log_sd_bias]);
+  put_influence(found, people, likelihood.influences(best, mean_log_sensitivity));
+  if (found.lapse->high) return;
+  for (const double rate : {0.0, 0.02, 0.05}) {
+    PopulationLikelihood fixed(on_scale(people, largest_g), rate);
+    found.at_lapse.push_back(
+        {rate, z_75 * largest_g * std::exp(-fixed.maximum().at[mean_log_sensitivity])});
+  }
+}
+}  // namespace
+
+MixedFit fit_mixed_indecision(AnswersByPerson people) {
+  MixedFit found;
+  std::erase_if(people, [](const auto& person) { return trials_in(person.second) == 0; });
+  const AnswersByLevel answers_of_all = together(people);
+  found.n = static_cast<int>(people.size());
+  found.n_trials = trials_in(answers_of_all);
+  const double largest_g = largest_level_of(answers_of_all);
+  found.why = found.n > 0 && largest_g == 0 ? "no trial had a difference"
+                                            : too_little_chosen(answers_of_all);
+  if (!found.identifiable()) return found;
+  if (found.n == 1)
+    put_single(found, people.begin()->second);
+  else if (found.n >= least_people)
+    put_population(found, people, largest_g);
+  else
+    found.why = fmt::format(
+        "{} participants are too few to estimate how people differ, expected {} or more", found.n,
+        least_people);
+  return found;
+}
+
+OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* own) {
+  if (own == nullptr) {
+    const Fit fit = fit_indecision(answers, {.lapse = fixed_lapse});
+    if (!fit.identifiable()) return {{}, {}, fit.why};
+    const FittedParameter& threshold = fit.parameter("threshold_75_g");
+    return {threshold.value, Interval{threshold.low.value_or(0), *threshold.high}, ""};
+  }
+  std::string why = too_little_chosen(answers);
+  const bool separated = !own->high && own->low.value_or(0) > 0;
+  if (why.empty())
+    why = why_no_threshold({own->low, own->high, separated}, {largest_level_of(answers)});
+  if (!why.empty()) return {{}, {}, why};
+  return {z_75 / own->value, Interval{z_75 / *own->high, z_75 / *own->low}, ""};
+}
+
+Interval ThresholdContrast::interval(double confidence) const {
+  const double half = student_t_quantile(n - 1, confidence) * standard_error;
+  return {value - half, value + half};
+}
+
+double ThresholdContrast::smallest_effect() const {
+  constexpr double both_tails_of_80_percent_power = 0.6;
+  return (student_t_quantile(n - 1) + student_t_quantile(n - 1, both_tails_of_80_percent_power)) *
+         standard_error;
+}
+
+ThresholdContrast threshold_contrast(std::span<const MixedFit* const> fits,
+                                     std::span<const double> weights) {
+  ThresholdContrast contrast;
+  std::map<std::string, double> influence;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    contrast.value += weights[i] * std::log(fits[i]->threshold_75_g->value);
+    for (const auto& [participant, own] : fits[i]->influence)
+      influence[participant] += weights[i] * own;
+  }
+  const double n = static_cast<double>(influence.size());
+  double sum = 0;
+  for (const auto& [participant, own] : influence) sum += own * own;
+  contrast.n = static_cast<int>(influence.size());
+  contrast.standard_error = std::sqrt(sum * n / (n - 1));
+  return contrast;
+}
+
+ThresholdContrast threshold_exponent(std::span<const MixedFit* const> fits,
+                                     std::span<const double> references_g) {
+  std::vector<double> weights;
+  for (const double reference_g : references_g) weights.push_back(std::log(reference_g));
+  const double mean_log = *mean(weights);
+  double square = 0;
+  for (double& weight : weights) {
+    weight -= mean_log;
+    square += weight * weight;
+  }
+  for (double& weight : weights) weight /= square;
+  return threshold_contrast(fits, weights);
+}
+
+}  // namespace heft

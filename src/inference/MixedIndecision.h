@@ -1,0 +1,114 @@
+// Thresholds of several people from their three-way choices: the mixed indecision model.
+//
+// Person i perceives D = s_i x + b_i + N(0, 1) on a signed difference x, and answers "comparison" if
+// D > tau_i, "reference" if D < -tau_i, otherwise "none" (psychophysics/ObserverModels.h). log s and
+// log tau are jointly normal over people, b is normal around 0, and all share a lapse rate that is
+// free in [0, .2]. The person's effects are integrated out (PersonIntegral.h); estimates are maximum
+// likelihood, intervals profile likelihood with a cut for few people (PopulationLikelihood.h).
+//
+// The likelihood holds under adaptive placement, because the levels of a person depend only on the
+// same person's earlier answers. Answers of several people in one curve do not: staircases send
+// insensitive people to large levels.
+//
+// With sides (left, none, right by the mass on the right minus that on the left) what earlier
+// answers did to a staircase's level cannot pass for sensitivity, and b is a preference for a side.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "inference/Fit.h"
+#include "inference/Statistics.h"
+
+namespace heft {
+
+/// Answers by signed level in g, by participant: reference, none, comparison; or left, none, right.
+using AnswersByPerson = std::map<std::string, AnswersByLevel>;
+
+/// With fewer people (except a single one, whose own fit is used) there is no interval.
+inline constexpr int least_people = 5;
+
+/// The lapse rate where the answers of too few people would have to identify it.
+inline constexpr double fixed_lapse = 0.02;
+
+/// A positive figure of a fit; an end that is none is infinite or 0.
+struct MixedFigure {
+  double value = 0;
+  std::optional<double> low{}, high{};
+};
+
+/// One person's sensitivity per g, with criterion and side bias integrated over their distribution
+/// and the lapse rate that all share. Ends where the likelihood has fallen as for a 95 % profile
+/// interval, with Student's t for the number of trials; none: it never does. May be negative.
+struct OwnSensitivity {
+  double value = 0;
+  std::optional<double> low{}, high{};
+};
+
+struct ThresholdAtLapse {
+  double lapse = 0, threshold_75_g = 0;
+};
+
+struct MixedFit {
+  int n = 0;  ///< people with a trial
+  double n_trials = 0;
+  std::string why;  ///< there is no threshold; empty: there is
+  double log_likelihood = 0;
+  std::optional<MixedFigure> sensitivity;  ///< per g, of the median person
+  std::optional<MixedFigure> threshold_75_g;
+  /// Criterion half-width of the median person, in SDs of internal noise. Also where there is no
+  /// threshold, but none where the likelihood is flat in the sensitivity.
+  std::optional<MixedFigure> indecision;
+  std::optional<MixedFigure> lapse;  ///< high is none: rates up to .2 are likely
+  std::optional<double> sd_log_sensitivity, sd_log_indecision, correlation, sd_bias;
+  /// Where the lapse rate is not identifiable: thresholds for rates of 0, .02 and .05.
+  std::vector<ThresholdAtLapse> at_lapse;
+  /// By participant; empty for fewer than least_people.
+  std::map<std::string, OwnSensitivity> people;
+  /// By participant: how log(threshold_75_g) would change if the person counted twice, to first
+  /// order and scaled to the width of the threshold's interval. Empty where there is no threshold.
+  std::map<std::string, double> influence;
+
+  bool identifiable() const { return why.empty(); }
+};
+
+/// Identifiable: the interval of the sensitivity lies above 0 and is bounded, and that of the
+/// threshold ends at most at twice the largest level.
+MixedFit fit_mixed_indecision(AnswersByPerson people);
+
+/// One person's threshold at one reference.
+struct OwnThreshold {
+  std::optional<double> threshold_75_g;  ///< none: not identifiable
+  std::optional<Interval> interval_g;
+  std::string why;  ///< not identifiable; empty: it is
+};
+
+/// @param own of the same answers among several people's; null: too few people, then the fit of
+///   these answers alone with a lapse rate of fixed_lapse
+OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* own);
+
+/// A weighted sum of the log thresholds of several fits, over the people in any of them: a
+/// difference, a slope. The variance is the infinitesimal jackknife's (Jaeckel 1972), so that what
+/// the same people have in common in several fits cancels.
+struct ThresholdContrast {
+  double value = 0, standard_error = 0;
+  int n = 0;  ///< people
+  Interval interval(double confidence = confidence_level) const;  ///< Student's t, n - 1 df
+  /// The smallest true value that 80 % of such studies would find (95 % interval excludes 0).
+  double smallest_effect() const;
+};
+
+/// @param fits identifiable, with n >= least_people together
+ThresholdContrast threshold_contrast(std::span<const MixedFit* const> fits,
+                                     std::span<const double> weights);
+
+/// The least-squares slope of log threshold on log reference: the exponent beta of threshold ~
+/// reference^beta; 0: thresholds are equal, 1: proportional (Weber's law). At least two references,
+/// all above 0.
+ThresholdContrast threshold_exponent(std::span<const MixedFit* const> fits,
+                                     std::span<const double> references_g);
+
+}  // namespace heft

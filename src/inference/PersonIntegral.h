@@ -1,0 +1,80 @@
+// One person's term in the mixed indecision model: the likelihood of their answers, integrated over
+// sensitivity, criterion half-width and side bias as these are distributed over people.
+//
+// Adaptive Gauss-Hermite quadrature (Pinheiro & Bates 1995): the nodes lie around the person's most
+// likely effects for one population, and stay there while the population changes a little, so that
+// the term is a smooth function of the population with exact derivatives. `center` puts them where
+// another population needs them.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "inference/IndecisionLikelihood.h"
+#include "inference/MaximumLikelihood.h"
+
+namespace heft {
+
+/// The distribution of people, as places among the parameters. Logarithm of the sensitivity s (per
+/// unit of level) and of the criterion half-width tau (SDs of internal noise) are jointly normal;
+/// the side bias is normal around 0.
+enum PopulationParameter : Eigen::Index {
+  mean_log_sensitivity,
+  mean_log_criterion,
+  log_sd_sensitivity,  ///< logarithm of the SD of log s
+  log_sd_criterion,
+  arctanh_correlation,  ///< of log s and log tau
+  log_sd_bias,
+  shared_lapse,
+  n_population_parameters
+};
+
+/// log s, log tau and bias of one person.
+using PersonEffects = Eigen::Vector3d;
+
+class PersonIntegral {
+ public:
+  /// @param answers by signed level, in units of the largest one
+  explicit PersonIntegral(std::vector<LevelAnswers> answers);
+
+  /// @param population a start for the person's own effects if they are unknown
+  void center(const Parameters& population);
+  /// Log of the integral. @param derivatives by the population, to be added to; null: not needed
+  double log_likelihood(const Parameters& population, Derivatives* derivatives);
+  /// Log of the integral by Laplace's method, around the most likely effects.
+  double laplace(const Parameters& population);
+  /// Gradient of the last log_likelihood with derivatives.
+  const Parameters& score() const { return score_; }
+ private:
+  struct Given {  // one kind of answer at one level
+    double level = 0, n = 0;
+    IndecisionAnswer answer = none_answer;
+  };
+  struct AtNode {  // log likelihood and its derivatives by the lapse rate
+    double value = 0, slope = 0, bend = 0;
+  };
+  struct Node {
+    PersonEffects effects;
+    double log_weight = 0;
+    std::size_t first_share = 0;  // in shares_
+    // In the population last looked at.
+    AtNode at{};
+    Eigen::Vector3d z = Eigen::Vector3d::Zero();
+    double term = 0;
+  };
+
+  AtNode at_node(const Node& node, double lapse) const;
+  /// @return log of likelihood times density there
+  double find_mode(const Parameters& population);
+
+  std::vector<LevelAnswers> answers_;
+  std::vector<Given> given_;
+  PersonEffects mode_ = PersonEffects::Zero();
+  Eigen::Matrix3d curvature_ = Eigen::Matrix3d::Identity();  // at the mode, negative
+  bool has_mode_ = false;
+  std::vector<Node> nodes_;
+  std::vector<double> shares_;  // of attentive answers: as given_, by node
+  Parameters score_;
+};
+
+}  // namespace heft

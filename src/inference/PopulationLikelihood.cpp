@@ -1,0 +1,222 @@
+#include "inference/PopulationLikelihood.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "inference/Statistics.h"
+
+namespace heft {
+
+PopulationLikelihood::PopulationLikelihood(const std::vector<std::vector<LevelAnswers>>& people,
+                                           std::optional<double> lapse)
+    : bounds_(n_population_parameters) {
+  bounds_[mean_log_sensitivity] = {-9, 6};
+  bounds_[mean_log_criterion] = {-7, 9};  // beyond all levels at any sensitivity
+  bounds_[log_sd_sensitivity] = bounds_[log_sd_criterion] = {std::log(0.05), std::log(2)};
+  bounds_[arctanh_correlation] = {-1.5, 1.5};
+  bounds_[log_sd_bias] = {std::log(0.05), std::log(2)};
+  bounds_[shared_lapse] = {lapse.value_or(0), lapse.value_or(most_lapses)};
+  for (const std::vector<LevelAnswers>& answers : people) {
+    people_.emplace_back(answers);
+    for (const auto& [level, n] : answers) {
+      const double n_here = n[0] + n[1] + n[2];
+      n_trials_ += n_here;
+      n_none_ += n[none_answer];
+      mean_square_level_ += n_here * level * level;
+    }
+  }
+  mean_square_level_ /= n_trials_;
+}
+
+// With criteria that give the share of "no difference" that was seen.
+Parameters PopulationLikelihood::start(double log_sensitivity) const {
+  const double s = std::exp(log_sensitivity);
+  const double none = std::clamp(n_none_ / n_trials_, 0.02, 0.98);
+  const double tau = std::sqrt(1 + s * s * mean_square_level_) * normal_quantile((1 + none) / 2);
+  Parameters at(n_population_parameters);
+  at << log_sensitivity, std::log(tau), std::log(0.4), std::log(0.4), 0, std::log(0.3),
+      std::clamp(0.02, bounds_[shared_lapse].low, bounds_[shared_lapse].high);
+  return at;
+}
+
+void PopulationLikelihood::center(const Parameters& at) {
+  for (PersonIntegral& person : people_) person.center(at);
+}
+
+double PopulationLikelihood::value(const Parameters& at, Derivatives* derivatives) {
+  if (derivatives) {
+    derivatives->gradient.setZero(n_population_parameters);
+    derivatives->hessian.setZero(n_population_parameters, n_population_parameters);
+  }
+  // The weak prior on the correlation.
+  const double rho = std::tanh(at[arctanh_correlation]);
+  double sum = std::log1p(-rho * rho);
+  if (derivatives) {
+    derivatives->gradient[arctanh_correlation] = -2 * rho;
+    derivatives->hessian(arctanh_correlation, arctanh_correlation) = -2 * (1 - rho * rho);
+  }
+  for (PersonIntegral& person : people_) sum += person.log_likelihood(at, derivatives);
+  return sum;
+}
+
+// As far as the nodes reach that were placed for `at`.
+std::vector<ParameterBounds> PopulationLikelihood::near(const Parameters& at) const {
+  constexpr std::array<double, n_population_parameters> reach{1, 1, 0.7, 0.7, 0.5, 0.7, 0.05};
+  std::vector<ParameterBounds> box = bounds_;
+  for (std::size_t i = 0; i < box.size(); ++i) {
+    const double here = at[static_cast<Eigen::Index>(i)];
+    box[i].low = std::max(box[i].low, here - reach[i]);
+    box[i].high = std::min(box[i].high, here + reach[i]);
+  }
+  return box;
+}
+
+LogLikelihood PopulationLikelihood::log_likelihood() {
+  return [this](const Parameters& at, Derivatives* derivatives) { return value(at, derivatives); };
+}
+
+Maximum PopulationLikelihood::climb(Parameters from, Eigen::Index held) {
+  // What a move of the nodes still changes in the log likelihood.
+  const double near_enough = held < 0 ? 1e-5 : 1e-3;
+  Maximum best{std::move(from), 0};
+  const LogLikelihood function = log_likelihood();
+  for (int i = 0; i < 40; ++i) {
+    center(best.at);
+    const std::vector<ParameterBounds> box = near(best.at);
+    const Starts starts{{best.at}};
+    const Maximum next = Likelihood(function, box, starts).climb(best.at, held);
+    const double change = std::abs(next.log_likelihood - best.log_likelihood);
+    best = next;
+    if (i > 0 && change < near_enough) break;
+  }
+  return best;
+}
+
+Maximum PopulationLikelihood::maximum() {
+  Maximum best{start(0), -infinity};
+  for (const double log_sensitivity : {-0.5, 0.5, 1.5, 2.5, 3.5}) {
+    const Parameters at = start(log_sensitivity);
+    center(at);
+    best = likelier(best, {at, value(at, nullptr)});
+  }
+  return climb(best.at);
+}
+
+namespace {
+constexpr double likelier_by = 1e-3;  // beyond what the quadrature leaves open
+
+double interval_drop_of(std::size_t n_people) {
+  const double n = static_cast<double>(n_people);
+  if (n < 2) return interval_drop;
+  const double t = student_t_quantile(n - 1);
+  return n / 2 * std::log1p(t * t / (n - 1));
+}
+
+Parameters within(Parameters at, const std::vector<ParameterBounds>& bounds) {
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    const ParameterBounds& limit = bounds[static_cast<std::size_t>(i)];
+    at[i] = std::clamp(at[i], limit.low, limit.high);
+  }
+  return at;
+}
+
+// One end of a profile interval. The square root of the fall is nearly a straight line.
+class ProfileEnd {
+ public:
+  ProfileEnd(PopulationLikelihood& people, const Maximum& best, Eigen::Index of, double drop)
+      : people_(people), best_(best), of_(of), root_(std::sqrt(drop)) {}
+
+  // @param first_step signed; @param change of the others with this parameter
+  std::optional<double> search(double first_step, Parameters change);
+  // Better than the estimate, if the search met that.
+  const Maximum& likeliest() const { return likeliest_; }
+
+ private:
+  Maximum held_at(double to, Parameters from) {
+    from[of_] = to;
+    const Maximum found = people_.climb(within(std::move(from), people_.bounds()), of_);
+    likeliest_ = likelier(likeliest_, found);
+    return found;
+  }
+  double excess(const Maximum& at) const {
+    return std::sqrt(std::max(0.0, best_.log_likelihood - at.log_likelihood)) - root_;
+  }
+  double between(Maximum inner, Maximum outer);
+
+  PopulationLikelihood& people_;
+  const Maximum& best_;
+  Maximum likeliest_ = best_;
+  Eigen::Index of_;
+  double root_;
+};
+
+std::optional<double> ProfileEnd::search(double step, Parameters change) {
+  const ParameterBounds& bounds = people_.bounds()[static_cast<std::size_t>(of_)];
+  const double limit = step < 0 ? bounds.low : bounds.high;
+  const double to_limit = limit - best_.at[of_];
+  if (excess(held_at(limit, best_.at + to_limit * change)) <= 0) return std::nullopt;
+  for (Maximum inner = best_; inner.at[of_] != limit; step *= 1.5) {
+    const double here = inner.at[of_];
+    const double to = std::abs(limit - here) <= std::abs(step) ? limit : here + step;
+    const Maximum outer = held_at(to, inner.at + (to - here) * change);
+    if (excess(outer) > 0) return between(inner, outer);
+    change = (outer.at - inner.at) / (to - here);
+    inner = outer;
+  }
+  return std::nullopt;
+}
+
+// Regula falsi until the straight line is as good as the profile.
+double ProfileEnd::between(Maximum inner, Maximum outer) {
+  constexpr double straight_enough = 0.01;
+  for (int i = 0;; ++i) {
+    const double at_inner = excess(inner), at_outer = excess(outer);
+    const double part = -at_inner / (at_outer - at_inner);
+    const double here = inner.at[of_] + part * (outer.at[of_] - inner.at[of_]);
+    if (std::min(-at_inner, at_outer) < straight_enough || i == 30) return here;
+    const Maximum middle = held_at(here, inner.at + part * (outer.at - inner.at));
+    (excess(middle) < 0 ? inner : outer) = middle;
+  }
+}
+}  // namespace
+
+PopulationLikelihood::ProfileInterval PopulationLikelihood::interval(Maximum& best,
+                                                                     Eigen::Index of) {
+  const double drop = interval_drop_of(people_.size());
+  for (int i = 0;; ++i) {
+    center(best.at);
+    const LogLikelihood function = log_likelihood();
+    const Starts starts{{best.at}};
+    Likelihood likelihood(function, bounds_, starts);
+    const double se = likelihood.standard_errors(best.at)[of];
+    const double step = se > 0 && se < 1 ? se * std::sqrt(2 * drop) : 0.3;
+    const Parameters change = likelihood.tangent(best.at, of);
+    ProfileEnd low(*this, best, of, drop), high(*this, best, of, drop);
+    const ProfileInterval found{low.search(-step, change), high.search(step, change)};
+    const Maximum likeliest = likelier(low.likeliest(), high.likeliest());
+    if (i == 5 || likeliest.log_likelihood <= best.log_likelihood + likelier_by) return found;
+    best = climb(likeliest.at);
+  }
+}
+
+std::vector<double> PopulationLikelihood::influences(const Maximum& best, Eigen::Index of) {
+  center(best.at);
+  Derivatives sum;
+  value(best.at, &sum);
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < n_population_parameters; ++i) {
+    const ParameterBounds& bounds = bounds_[static_cast<std::size_t>(i)];
+    if (i == of || (best.at[i] > bounds.low + 1e-6 && best.at[i] < bounds.high - 1e-6))
+      free.push_back(i);
+  }
+  const Curvature information = -sum.hessian(free, free);
+  const auto place = std::ranges::find(free, of) - free.begin();
+  const Parameters row =
+      information.ldlt().solve(Parameters::Unit(static_cast<Eigen::Index>(free.size()), place));
+  std::vector<double> all;
+  for (const PersonIntegral& person : people_) all.push_back(row.dot(person.score()(free)));
+  return all;
+}
+
+}  // namespace heft
