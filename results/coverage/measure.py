@@ -19,6 +19,7 @@ FIGURES = [  # what a line says: kind, pattern
     ("share, ratio", rf"^(?P<row>.* share .*): .*, {NUMBER} % \(ratio\)"),
     ("threshold", rf"{PEOPLE}: {NUMBER} % of .*; indecision {SET}: {NUMBER} %; of each person {NUMBER} %"),
     ("ratio of thresholds", rf"^ratio of thresholds (?P<row>.*): {NUMBER} %"),
+    ("log-normal mean", rf"^(?P<row>\d+ people, log SD .*): {NUMBER} %"),
     ("Tobit mean", rf"^(?P<row>\d+ people, ceiling .*): {NUMBER} %"),
     ("above - below", rf"^(?P<row>\d+ people, .*above - below .*): {NUMBER} % of"),
 ]

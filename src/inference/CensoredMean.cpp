@@ -26,11 +26,13 @@ double highest(Function function, double low, double high) {
   return boost::math::tools::brent_find_minima(below, low, high, bits).first;
 }
 
-/// The values shifted and scaled, so that the exact ones have mean 0 and SD 1.
+/// The values shifted and scaled, so that the exact ones have mean 0 and SD 1. What is estimated is
+/// mu + slope sigma^2: with a slope of 0 the mean, with half the scale the logarithm of the mean of
+/// figures whose logarithms are the values, in the same units.
 class Tobit {
  public:
-  Tobit(std::span<const CensoredValue> values, double center, double scale)
-      : values_(values.begin(), values.end()) {
+  Tobit(std::span<const CensoredValue> values, double center, double scale, double slope)
+      : values_(values.begin(), values.end()), slope_(slope) {
     for (CensoredValue& value : values_) value.value = (value.value - center) / scale;
   }
 
@@ -51,13 +53,20 @@ class Tobit {
     return highest([&](double log_sigma) { return log_likelihood(mu, log_sigma); }, -4.0, 6.0);
   }
 
-  double profile(double mu) const { return log_likelihood(mu, best_log_sigma(mu)); }
-
   double best_mu() const {
-    return highest([&](double mu) { return profile(mu); }, -20.0, 20.0);
+    return highest([&](double mu) { return log_likelihood(mu, best_log_sigma(mu)); }, -20.0, 20.0);
   }
 
-  // From the best mu outwards, to where the profile has fallen by so much.
+  double target(double mu, double log_sigma) const { return mu + slope_ * std::exp(2 * log_sigma); }
+
+  double profile(double target_at) const {
+    const auto along = [&](double log_sigma) {
+      return log_likelihood(target_at - slope_ * std::exp(2 * log_sigma), log_sigma);
+    };
+    return along(highest(along, -4.0, 6.0));
+  }
+
+  // From the best target outwards, to where the profile has fallen by so much.
   double end(double best, double drop, double direction) const {
     const double least = profile(best) - drop;
     double inside = 0, outside = 0.5;
@@ -72,6 +81,7 @@ class Tobit {
 
  private:
   std::vector<CensoredValue> values_;
+  double slope_;
 };
 
 std::vector<double> exact_values(std::span<const CensoredValue> values) {
@@ -85,6 +95,48 @@ double allowed_drop(double n_exact) {
   const double t = student_t_quantile(n_exact - 1);
   return n_exact / 2 * std::log1p(t * t / (n_exact - 1));
 }
+// The logarithms. Those of 0 and less lie below the smallest positive value; that one lies above 0
+// says nothing.
+std::vector<CensoredValue> logarithms(std::span<const CensoredValue> values) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const CensoredValue& one : values)
+    if (one.value > 0) smallest = std::min(smallest, one.value);
+  std::vector<CensoredValue> logs;
+  for (const CensoredValue& one : values)
+    if (one.value > 0)
+      logs.push_back({std::log(one.value), one.censored});
+    else if (one.censored != Censored::above && std::isfinite(smallest))
+      logs.push_back({std::log(smallest), Censored::below});
+  return logs;
+}
+
+// The mean, SD and interval of figures from those of their logarithms: mu and sigma, and the limits
+// of the mean's logarithm.
+std::optional<CensoredMean> of_logarithms(double log_mean, double sigma, Interval log_interval) {
+  const double mean = std::exp(log_mean);
+  const CensoredMean found{mean,
+                           mean * std::sqrt(std::expm1(sigma * sigma)),
+                           {std::exp(log_interval.low), std::exp(log_interval.high)}};
+  if (!std::isfinite(found.sd) || !std::isfinite(found.interval.high)) return std::nullopt;
+  return found;
+}
+
+// For values that are exact for more than a half.
+std::optional<CensoredMean> tobit_mean(std::span<const CensoredValue> values,
+                                       const std::vector<double>& exact, FigureModel model) {
+  const double center = *mean(exact), scale = *sample_sd(exact);
+  const bool is_log = model == FigureModel::log_normal;
+  const Tobit tobit(values, center, scale, is_log ? scale / 2 : 0);
+  const double n = static_cast<double>(values.size());
+  const double mu = tobit.best_mu(), log_sigma = tobit.best_log_sigma(mu);
+  const double best = tobit.target(mu, log_sigma);
+  const double drop = allowed_drop(static_cast<double>(exact.size()));
+  const double sd = scale * std::exp(log_sigma) * std::sqrt(n / (n - 1));
+  const Interval interval{center + scale * tobit.end(best, drop, -1),
+                          center + scale * tobit.end(best, drop, +1)};
+  if (is_log) return of_logarithms(center + scale * best, sd, interval);
+  return CensoredMean{center + scale * best, sd, interval};
+}
 }  // namespace
 
 bool mostly_censored(std::span<const CensoredValue> values, int n_missing) {
@@ -92,29 +144,34 @@ bool mostly_censored(std::span<const CensoredValue> values, int n_missing) {
   return n == 0 || 2 * exact_values(values).size() <= n;
 }
 
-std::optional<CensoredMean> censored_mean(std::span<const CensoredValue> values, int n_missing) {
-  const std::vector<double> exact = exact_values(values);
-  const double sd = sample_sd(exact).value_or(0);
-  if (mostly_censored(values, n_missing) || !(sd > 0)) return std::nullopt;
-  const double center = *mean(exact);
-  if (exact.size() == values.size()) return CensoredMean{center, sd, *student_t_interval(exact)};
-  const Tobit tobit(values, center, sd);
-  const double n = static_cast<double>(values.size()), best = tobit.best_mu();
-  const double drop = allowed_drop(static_cast<double>(exact.size()));
-  return CensoredMean{
-      center + sd * best,
-      sd * std::exp(tobit.best_log_sigma(best)) * std::sqrt(n / (n - 1)),
-      {center + sd * tobit.end(best, drop, -1), center + sd * tobit.end(best, drop, +1)}};
+std::optional<CensoredMean> censored_mean(std::span<const CensoredValue> values, int n_missing,
+                                          FigureModel model) {
+  const bool is_log = model == FigureModel::log_normal;
+  const std::vector<CensoredValue> logs =
+      is_log ? logarithms(values) : std::vector<CensoredValue>();
+  const std::span<const CensoredValue> modeled = is_log ? std::span(logs) : values;
+  const int n_unknown = n_missing + static_cast<int>(values.size() - modeled.size());
+  const std::vector<double> exact = exact_values(modeled);
+  if (mostly_censored(modeled, n_unknown) || !(sample_sd(exact).value_or(0) > 0))
+    return std::nullopt;
+  if (is_log && exact.size() < 3) return std::nullopt;
+  if (!is_log && exact.size() == values.size())
+    return CensoredMean{*mean(exact), *sample_sd(exact), *student_t_interval(exact)};
+  return tobit_mean(modeled, exact, model);
 }
 
-FigureSummary summarize_figures(std::span<const CensoredValue> values, int n_missing) {
+FigureSummary summarize_figures(std::span<const CensoredValue> values, int n_missing,
+                                FigureModel model) {
   if (mostly_censored(values, n_missing)) return {};
   const std::vector<double> exact = exact_values(values);
-  const MeanKind kind = exact.size() == values.size() ? MeanKind::mean : MeanKind::tobit_mean;
-  if (const auto found = censored_mean(values, n_missing))
+  const bool all_exact = exact.size() == values.size();
+  const MeanKind kind = model == FigureModel::log_normal ? MeanKind::log_normal_mean
+                        : all_exact                      ? MeanKind::mean
+                                                         : MeanKind::tobit_mean;
+  if (const auto found = censored_mean(values, n_missing, model))
     return {kind, found->mean, found->sd, found->interval};
-  if (kind == MeanKind::mean) return {kind, mean(exact), sample_sd(exact), std::nullopt};
-  return {};  // the exact ones are all the same
+  if (all_exact) return {MeanKind::mean, mean(exact), sample_sd(exact), std::nullopt};
+  return {};
 }
 
 std::optional<CensoredValue> mean_figure(std::span<const std::optional<CensoredValue>> figures) {

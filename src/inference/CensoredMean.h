@@ -1,13 +1,14 @@
 // The mean of figures of which some are only known to lie above or below a value, as for a
 // staircase at its ceiling or floor.
 //
-// Tobit model (Tobin 1958; both sides: Rosett & Nelson 1975): the figures are normal with mean mu
-// and SD sigma, an exact one counts with its density, a censored one with the probability of lying
-// beyond. By maximum likelihood over 1/sigma and mu/sigma, in which it is concave (Olsen 1978). The
-// interval of mu is where the profile falls by at most n_exact/2 log(1 + t^2/(n_exact - 1)), t
-// the 97.5 % quantile of Student's t with n_exact - 1 degrees of freedom: without censoring that is
-// Student's interval itself. tests/inference/censored_mean_test.cpp shows how often it holds the
-// mean.
+// Tobit model (Tobin 1958; both sides: Rosett & Nelson 1975): the figures, or the logarithms of
+// figures that are positive, are normal with mean mu and SD sigma. An exact one counts with its
+// density, a censored one with the probability of lying beyond. By maximum likelihood; the mean is
+// mu, or exp(mu + sigma^2/2) for logarithms. Its interval is where the profile falls by at most
+// n_exact/2 log(1 + t^2/(n_exact - 1)), t the 97.5 % quantile of Student's t with n_exact - 1
+// degrees of freedom: without censoring and logarithms that is Student's interval itself. For
+// logarithms it is positive and reaches further up than down.
+// tests/inference/censored_mean_test.cpp measures the coverage.
 #pragma once
 
 #include <array>
@@ -27,21 +28,28 @@ struct CensoredValue {
   Censored censored = Censored::none;  ///< none, above or below; otherwise not a value
 };
 
+/// What is normal over participants: the figures, or the logarithms of positive ones.
+enum class FigureModel { normal, log_normal };
+
 struct CensoredMean {
-  double mean = 0, sd = 0;  ///< sd: over n-1, as without censoring
+  double mean = 0, sd = 0;  ///< of the figures under the model; sigma over n-1
   Interval interval;
 };
 
-/// None where it takes more to say it: fewer than two exact values that differ, or half of the
-/// values or more censored. One value, or an SD of 0, has no interval.
+/// None if the data do not determine it: half of the values or more are censored or missing; fewer
+/// than two exact ones that differ, or for log_normal fewer than three or an infinite interval. A
+/// log-normal figure is positive: an exact 0, or one below 0, counts as below the smallest positive
+/// value.
 /// @param n_missing further ones of which nothing is known; they count as not exact
-std::optional<CensoredMean> censored_mean(std::span<const CensoredValue> values, int n_missing = 0);
+std::optional<CensoredMean> censored_mean(std::span<const CensoredValue> values, int n_missing = 0,
+                                          FigureModel model = FigureModel::normal);
 
-/// What the mean of several figures is.
-enum class MeanKind { none, mean, tobit_mean };
+/// Which mean of several figures is given.
+enum class MeanKind { none, mean, tobit_mean, log_normal_mean };
 template <>
 struct EnumNames<MeanKind> {
-  static constexpr std::array<std::string_view, 3> names{"none", "mean", "tobit_mean"};
+  static constexpr std::array<std::string_view, 4> names{"none", "mean", "tobit_mean",
+                                                         "log_normal_mean"};
 };
 
 /// The figures of several people, of whom some are censored and some unknown.
@@ -50,7 +58,10 @@ struct FigureSummary {
   std::optional<double> mean, sd;    ///< none where half or fewer are exact; sd over n-1
   std::optional<Interval> interval;  ///< also none for one person or an SD of 0
 };
-FigureSummary summarize_figures(std::span<const CensoredValue> values, int n_missing);
+/// censored_mean() where there is one; else, if all values are exact, their arithmetic mean without
+/// an interval.
+FigureSummary summarize_figures(std::span<const CensoredValue> values, int n_missing,
+                                FigureModel model = FigureModel::normal);
 
 /// The mean of one person's figures. None where any of them is unknown, or one is known to lie
 /// above and one below what it gives.

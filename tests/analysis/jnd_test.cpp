@@ -27,9 +27,12 @@ TEST(Jnd, MeansSpreadAndIntervalOverParticipants) {
   }
   const auto jnds = jnd_of(sessions);
   ASSERT_EQ(jnds.size(), 1);
-  EXPECT_DOUBLE_EQ(*jnds[0].overall.mean, 80);
-  EXPECT_DOUBLE_EQ(*jnds[0].overall.sd, std::sqrt(800.0 / 3));
-  EXPECT_NEAR(jnds[0].overall.interval->high, 105.984565272502, 1e-9);
+  EXPECT_EQ(jnds[0].overall.kind, MeanKind::log_normal_mean);
+  EXPECT_NEAR(*jnds[0].overall.mean, 80.0243613037, 1e-3);  // tests/golden/analysis/tobit.R
+  EXPECT_NEAR(*jnds[0].overall.sd, 16.9403585679, 1e-3);
+  EXPECT_NEAR(jnds[0].overall.interval->high, 119.5939855312, 1e-3);
+  EXPECT_DOUBLE_EQ(*jnds[0].overall.by_paper.mean, 80);
+  EXPECT_DOUBLE_EQ(*jnds[0].overall.by_paper.sd, std::sqrt(800.0 / 3));
   ASSERT_NE(jnds[0].published, nullptr);
   EXPECT_EQ(jnds[0].published->value, 172.3);
   EXPECT_EQ(jnds[0].published->sd, 72.4);
@@ -87,8 +90,10 @@ TEST(Jnd, TheTableHasARowForEachStart) {
   for (const auto& row : table.rows) rows.push_back(row[2].text + ": " + row[3].text);
   EXPECT_EQ(rows, (std::vector<std::string>{"from above: 310.0", "from below: 100.0",
                                             "above - below: 210.0"}));
-  EXPECT_EQ(table.rows[0].at(12).text, "271.5");  // published, of staircases from above
-  EXPECT_EQ(table.rows[1].at(12).text, "");
+  EXPECT_EQ(table.rows[0].at(12).text, "310.0");  // by the paper's rule
+  EXPECT_EQ(table.rows[2].at(12).text, "210.0");
+  EXPECT_EQ(table.rows[0].at(15).text, "271.5");  // published, of staircases from above
+  EXPECT_EQ(table.rows[1].at(15).text, "");
 }
 
 TEST(Jnd, OneParticipantHasNoSpreadAndNoInterval) {
@@ -138,9 +143,32 @@ TEST(Jnd, WhatLeansOnABoundIsCensoredAndCounted) {
   EXPECT_EQ(jnd.overall.n(), 5);
   EXPECT_EQ(jnd.overall.n_censored(Censored::above), 1);
   EXPECT_EQ(jnd.overall.n_censored(Censored::below), 1);
-  EXPECT_EQ(jnd.overall.kind, MeanKind::tobit_mean);
+  EXPECT_EQ(jnd.overall.kind, MeanKind::log_normal_mean);
   EXPECT_GT(*jnd.overall.mean, 70);  // not 70, as if they were not there, nor as if 300 were exact
   EXPECT_LT(jnd.overall.interval->low, *jnd.overall.mean);
+  EXPECT_GT(jnd.overall.interval->low, 0);
+  EXPECT_DOUBLE_EQ(*jnd.overall.by_paper.mean, (60 + 80 + 70 + 300 + 5) / 5.0);
+  EXPECT_EQ(jnd.overall.by_paper.n, 5);
+}
+
+TEST(Jnd, ThePapersMeanTakesWhatTheLogHasAndCountsIt) {
+  std::vector sessions{with_jnds(1, {{60, Censored::none}}),
+                       with_jnds(2, {{300, Censored::indeterminate}}),
+                       with_jnds(3, {{90, Censored::above}}), with_jnds(4, {{1, Censored::none}})};
+  sessions[3].estimates[0].jnd_g.reset();  // fewer reversals than are discarded
+  sessions[3].estimates[0].n_reversals = 1;
+  const Jnds jnds = jnd_of(sessions).at(0).overall;
+  EXPECT_FALSE(jnds.mean.has_value());
+  EXPECT_DOUBLE_EQ(*jnds.by_paper.mean, 150);
+  EXPECT_DOUBLE_EQ(*jnds.by_paper.sd, std::sqrt((90.0 * 90 + 150.0 * 150 + 60.0 * 60) / 2));
+  EXPECT_EQ(jnds.by_paper.n, 3);
+}
+
+TEST(Jnd, ThePapersMeanAveragesSessionsOfAParticipant) {
+  SessionData first = with_jnds(1, {{100, Censored::none}, {300, Censored::above}});
+  SessionData again = session(2, "1"), other = with_jnds(3, {{50, Censored::below}});
+  add_staircase(again, "s0", 15, 400);  // participant: (200 + 400) / 2
+  EXPECT_DOUBLE_EQ(*jnd_of(std::vector{first, again, other}).at(0).overall.by_paper.mean, 175);
 }
 
 TEST(Jnd, WhereHalfAreCensoredOrMissingThereIsNoMean) {

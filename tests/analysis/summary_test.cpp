@@ -57,7 +57,10 @@ TEST(SummaryJson, KeepsTheContract) {
   EXPECT_EQ(found["jnd"][0]["reference_g"], 15);
   EXPECT_EQ(found["jnd"][0]["mean_g"], 115);
   EXPECT_NEAR(found["jnd"][0]["sd_g"], std::sqrt(50), 1e-12);
-  EXPECT_TRUE(found["jnd"][0]["low_g"].is_number());
+  EXPECT_TRUE(found["jnd"][0]["low_g"].is_null());  // it needs three participants
+  EXPECT_EQ(found["jnd"][0]["paper_mean_g"], 115);
+  EXPECT_NEAR(found["jnd"][0]["paper_sd_g"], std::sqrt(50), 1e-12);
+  EXPECT_EQ(found["jnd"][0]["paper_n"], 2);
   EXPECT_EQ(found["jnd"][0]["published_g"], 172.3);
   EXPECT_EQ(found["jnd"][1]["sd_g"], 0);
   EXPECT_TRUE(found["jnd"][1]["low_g"].is_null());

@@ -6,6 +6,7 @@ Run: python3 tests/cli/analyse_golden_test.py PATH_TO_HEFT [--update]
 import csv
 import json
 import math
+import sqlite3
 import sys
 from pathlib import Path
 
@@ -78,6 +79,21 @@ class AnalyseGolden(SessionTest):
                             f"{place}: {golden} became {found}")
         elif not isinstance(golden, str):
             self.assertEqual(golden, found, place)
+
+    def test_the_papers_mean_is_its_rule(self):
+        """Mean level of all reversals but two, then over participants, each of one session."""
+        self.analysed("paper")
+        log = sqlite3.connect(self.folder / "paper.db")
+        by_hand = dict(log.execute("""
+            SELECT reference_g, avg(jnd_g) FROM (
+              SELECT avg(level_g) AS jnd_g, (SELECT reference_g FROM trial WHERE trial.session_id =
+                reversal.session_id AND trial.trial_id = reversal.trial_id) AS reference_g
+              FROM reversal WHERE number > 2 GROUP BY session_id, staircase) GROUP BY reference_g"""))
+        log.close()
+        found = json.loads((self.folder / "paper" / "summary.json").read_text(encoding="utf-8"))
+        self.assertEqual({15, 200, 800}, set(by_hand))
+        for jnd in found["jnd"]:
+            self.assertAlmostEqual(by_hand[jnd["reference_g"]], jnd["paper_mean_g"], places=6)
 
     def test_figures_are_kept(self):
         for name in STUDIES:

@@ -113,23 +113,43 @@ using Began = StaircaseFold::Began;
 using AboveAndBelow = StaircaseFold::AboveAndBelow;
 using Results = std::vector<const StaircaseResult*>;
 
+JndFigure figure_of(const StaircaseResult& result) {
+  JndFigure figure{censored_value(result), std::nullopt};
+  if (result.jnd_g) figure.as_logged = CensoredValue{*result.jnd_g};
+  return figure;
+}
+
+std::optional<CensoredValue> mean_of(std::span<const JndFigure> parts,
+                                     std::optional<CensoredValue> JndFigure::*which,
+                                     bool leave_out_unknown) {
+  std::vector<std::optional<CensoredValue>> values;
+  for (const JndFigure& part : parts)
+    if (part.*which || !leave_out_unknown) values.push_back(part.*which);
+  return mean_figure(values);
+}
+
+JndFigure mean_of(std::span<const JndFigure> parts, bool leave_out_unknown = false) {
+  return {mean_of(parts, &JndFigure::censored, leave_out_unknown),
+          mean_of(parts, &JndFigure::as_logged, leave_out_unknown)};
+}
+
 // Staircases of one session first, then sessions: a participant counts once. Staircases that began
 // and have no result are unknown. Sessions without a figure don't count where another one has one.
 Jnds overall_of(const Results& results, const Began& began) {
   Jnds jnds;
   for (const auto& [participant, sessions] : began) {
-    std::vector<std::optional<CensoredValue>> of_sessions;
+    std::vector<JndFigure> of_sessions;
     for (const auto& [session_id, n_began] : sessions) {
-      std::vector<std::optional<CensoredValue>> values;
+      std::vector<JndFigure> figures;
       for (const StaircaseResult* result : results)
         if (result->participant == participant && result->session_id == session_id)
-          values.push_back(censored_value(*result));
-      values.resize(std::max(values.size(), static_cast<std::size_t>(n_began)));
-      if (auto value = mean_figure(values)) of_sessions.push_back(value);
+          figures.push_back(figure_of(*result));
+      figures.resize(std::max(figures.size(), static_cast<std::size_t>(n_began)));
+      of_sessions.push_back(mean_of(figures));
     }
-    jnds.add(participant, of_sessions.empty() ? std::nullopt : mean_figure(of_sessions));
+    jnds.add(participant, mean_of(of_sessions, true));
   }
-  jnds.put_mean();
+  jnds.put_means(FigureModel::log_normal);
   return jnds;
 }
 
@@ -138,7 +158,7 @@ void put_session(AboveAndBelow& figures, const Results& results) {
   const double middle_g = (low->start_g + high->start_g) / 2;
   if (low->start_g == high->start_g) return;
   for (const StaircaseResult* result : results)
-    (result->start_g > middle_g ? figures.above : figures.below).push_back(censored_value(*result));
+    (result->start_g > middle_g ? figures.above : figures.below).push_back(figure_of(*result));
 }
 
 // None where no session has staircases of both kinds.
@@ -149,14 +169,16 @@ std::optional<StartEffect> start_effect(const std::map<std::string, AboveAndBelo
   for (const auto& [participant, sessions] : began) {
     const auto figures = participants.find(participant);
     const bool any = figures != participants.end();
-    const auto above = any ? mean_figure(figures->second.above) : std::nullopt;
-    const auto below = any ? mean_figure(figures->second.below) : std::nullopt;
+    const JndFigure above = any ? mean_of(figures->second.above) : JndFigure{};
+    const JndFigure below = any ? mean_of(figures->second.below) : JndFigure{};
     effect.from_above_g.add(participant, above);
     effect.from_below_g.add(participant, below);
-    effect.difference_g.add(participant, difference(above, below));
+    effect.difference_g.add(participant, {difference(above.censored, below.censored),
+                                          difference(above.as_logged, below.as_logged)});
   }
-  for (Jnds* jnds : {&effect.from_above_g, &effect.from_below_g, &effect.difference_g})
-    jnds->put_mean();
+  effect.from_above_g.put_means(FigureModel::log_normal);
+  effect.from_below_g.put_means(FigureModel::log_normal);
+  effect.difference_g.put_means(FigureModel::normal);  // of either sign
   return effect;
 }
 
@@ -242,17 +264,21 @@ std::vector<ReferenceJnd> StaircaseFold::jnds() const {
   return jnds;
 }
 
-void Jnds::add(const std::string& participant, const std::optional<CensoredValue>& figure) {
-  if (figure)
-    participants.push_back({participant, figure->value, figure->censored});
+void Jnds::add(const std::string& participant, const JndFigure& figure) {
+  if (figure.censored)
+    participants.push_back({participant, figure.censored->value, figure.censored->censored});
   else
     missing.push_back(participant);
+  if (figure.as_logged) as_logged_g_.push_back(figure.as_logged->value);
 }
 
-void Jnds::put_mean() {
+void Jnds::put_means(FigureModel model) {
   std::vector<CensoredValue> values;
   for (const ParticipantJnd& one : participants) values.push_back({one.jnd_g, one.censored});
-  static_cast<FigureSummary&>(*this) = summarize_figures(values, static_cast<int>(missing.size()));
+  static_cast<FigureSummary&>(*this) =
+      summarize_figures(values, static_cast<int>(missing.size()), model);
+  by_paper = {heft::mean(as_logged_g_), sample_sd(as_logged_g_),
+              static_cast<int>(as_logged_g_.size())};
 }
 
 int Jnds::n_censored(Censored direction) const {

@@ -51,6 +51,12 @@ struct StaircaseResult {
 /// None where nothing is known.
 std::optional<CensoredValue> censored_value(const StaircaseResult& result);
 
+/// What one or several staircases estimate: the JND or what it lies beyond, and the JND of the
+/// paper's rule, which takes a censored one as exact.
+struct JndFigure {
+  std::optional<CensoredValue> censored, as_logged;
+};
+
 /// A staircase that ended with fewer is censored.
 inline constexpr int least_reversals = 4;
 
@@ -62,17 +68,27 @@ struct ParticipantJnd {
   Censored censored = Censored::none;
 };
 
+/// Mean over the participants with a JND by the paper's rule; sd over n-1.
+struct PaperMean {
+  std::optional<double> mean, sd;
+  int n = 0;
+};
+
 /// Participants' JNDs at a reference, and their mean.
 struct Jnds : FigureSummary {
+  PaperMean by_paper;
   std::vector<ParticipantJnd> participants;  ///< with a figure, exact or censored
   /// Without a figure, or without one that a mean could hold: a staircase unfinished, without a JND
   /// and a direction, or one above and one below.
   std::vector<std::string> missing;
 
-  void add(const std::string& participant, const std::optional<CensoredValue>& figure);
-  void put_mean();  ///< when all are added
+  void add(const std::string& participant, const JndFigure& figure);
+  void put_means(FigureModel model);  ///< when all are added
   int n() const { return static_cast<int>(participants.size() + missing.size()); }
   int n_censored(Censored direction) const;
+
+ private:
+  std::vector<double> as_logged_g_;
 };
 
 /// JNDs of staircases from above and from below at one reference. Their difference measures the
@@ -122,7 +138,7 @@ class StaircaseFold {
   using Began = std::map<std::string, std::map<std::int64_t, int>>;
   /// One participant's figures at one reference, by where the staircases of a session began.
   struct AboveAndBelow {
-    std::vector<std::optional<CensoredValue>> above, below;
+    std::vector<JndFigure> above, below;
   };
 
  private:

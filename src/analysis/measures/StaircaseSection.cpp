@@ -14,10 +14,14 @@ namespace {
 constexpr Measure jnd{
     "jnd", "g", "JND",
     "the paper's JND: mean level of a staircase's reversals without the first ones, by the "
-    "side on which staircases started; mean over participants"};
+    "side on which staircases started; log-normal mean over participants"};
 constexpr Measure jnd_overall{
     "jnd_overall", "g", "JND",
-    "the paper's JND over all staircases of a participant; mean over participants"};
+    "the paper's JND over all staircases of a participant; log-normal mean over participants"};
+constexpr Measure jnd_paper_mean{
+    "jnd_paper_mean", "g", "paper's mean",
+    "the paper's own mean of JNDs: arithmetic mean over the participants with a JND by the "
+    "paper's rule, censored ones at the mean of their reversals"};
 constexpr Measure n_above{"jnd_n_above", "", "above",
                           "participants whose JND is censored: it is larger than shown"};
 constexpr Measure n_below{"jnd_n_below", "", "below",
@@ -144,6 +148,11 @@ void put_jnds(Estimates& all, StudyEstimate estimate, const Jnds& jnds) {
   put_number(n_below, jnds.n_censored(Censored::below));
   put_number(n_missing, static_cast<int>(jnds.missing.size()));
   put_number(n_known, jnds.n() - static_cast<int>(jnds.missing.size()));
+  number.measure = &jnd_paper_mean;
+  number.value = jnds.by_paper.mean;
+  number.sd = jnds.by_paper.sd;
+  number.n = jnds.by_paper.n;
+  all.push_back(number);
 }
 
 // JNDs by where the staircases began.
@@ -218,6 +227,9 @@ std::vector<EstimateColumn> columns_of(std::vector<EstimateColumn> columns, cons
   add(n_above, Field::value, "n_censored_above", "above", 0);
   add(n_below, Field::value, "n_censored_below", "below", 0);
   add(n_missing, Field::value, "n_missing", "missing", 0);
+  add(jnd_paper_mean, Field::value, "paper_mean_g", "paper's mean");
+  add(jnd_paper_mean, Field::sd, "paper_sd_g", "SD");
+  add(jnd_paper_mean, Field::n, "paper_n", "n");
   return columns;
 }
 
@@ -230,12 +242,13 @@ EstimateTable jnd_table() {
       "n participants; SD between them (n-1). The paper's JND: it moves with the criterion as much "
       "as with what is perceived, and with where its staircase began: where they began on both "
       "sides, these are apart, and above - below is by how much each participant's JND follows the "
-      "start. Above, below: participants of whom it is only known to lie there, as a staircase "
-      "ended at a bound, at its trial limit or with fewer than 4 reversals; missing: not even "
-      "that. "
-      "Where all are exact, the mean with Student's t interval; otherwise the Tobit mean (normal "
-      "model of exact and censored ones together) with its profile interval; none where half or "
-      "more are not exact."};
+      "start. Above, below: participants of whom it is only known to lie there, because a bound "
+      "cut a move of a staircase, or it ended at its trial limit or with fewer than 4 reversals; "
+      "missing: not even that. JND: mean of the log-normal model of exact and censored ones "
+      "together with its profile interval, which needs three exact ones; a JND of 0 counts as "
+      "below the smallest other one. Above - below, which may be negative: Student's t, or the "
+      "Tobit mean of the normal model where some are censored. None where half or more are not "
+      "exact. Paper's mean: arithmetic, with censored JNDs at the mean of their reversals."};
   table.columns.push_back(column(jnd, Field::published, "published_g", "published g"));
   table.columns.push_back(column(jnd, Field::published_sd, "published_sd_g", "published SD"));
   table.columns.push_back(key_column("method", "method"));
@@ -325,6 +338,13 @@ class StaircaseSection final : public Section {
       std::string text =
           one->value ? fmt::format("{}{:.0f} g", beyond_sign(one->censored), *one->value) : "none";
       if (one->low) text += fmt::format(" [{:.0f}, {:.0f}]", *one->low, *one->high);
+      const StudyEstimate* by_paper = find_estimate(summary.estimates, jnd_paper_mean.name,
+                                                    {{"staircases", staircases},
+                                                     {"condition", one->condition},
+                                                     {"reference_g", one->text_at("reference_g")},
+                                                     {"method", one->text_at("method")}});
+      if (by_paper && by_paper->value)
+        text += fmt::format(" (arithmetic mean {:.0f} g)", *by_paper->value);
       text += fmt::format(" at {:g} g", *one->reference_g);
       if (staircases != "all") text += " " + staircases;
       by_method[{one->text_at("method"), one->condition}].push_back(std::move(text));

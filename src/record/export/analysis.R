@@ -173,15 +173,25 @@ mean_estimate <- function(values, directions) {
   list(value = mean(values), direction = if (length(censored) == 1) censored else "none")
 }
 
-# Arithmetic mean without censored values, otherwise maximum likelihood (Tobit) if more than half are
-# exact.
+known_mean <- function(values) if (all(is.na(values))) NA_real_ else mean(values, na.rm = TRUE)
+
+# Mean of a log-normal distribution by maximum likelihood if more than half of the values are exact. A
+# value of 0 is below the smallest positive one. With fewer than three exact values: arithmetic mean
+# if none is censored.
 censored_mean <- function(values, directions, n_missing) {
-  exact <- values[directions == "none"]
-  if (2 * length(exact) <= length(values) + n_missing) return(NA)
-  if (length(exact) == length(values)) return(mean(values))
-  if (length(exact) < 2 || sd(exact) == 0) return(NA)
+  n <- length(values) + n_missing
+  if (2 * sum(directions == "none") <= n) return(NA)
+  plain <- if (all(directions == "none")) mean(values) else NA
+  zero <- values <= 0
+  if (all(zero)) return(plain)
+  known <- !(zero & directions == "above")
+  directions[zero] <- "below"
+  values[zero] <- min(values[!zero])
+  y <- log(values[known]); directions <- directions[known]
+  exact <- y[directions == "none"]
+  if (length(exact) < 3 || 2 * length(exact) <= n || sd(exact) == 0) return(plain)
   center <- mean(exact); scale <- sd(exact)
-  z <- (values - center) / scale
+  z <- (y - center) / scale
   loss <- function(p) {
     sigma <- exp(p[2])
     -sum(ifelse(directions == "none", dnorm(z, p[1], sigma, log = TRUE),
@@ -189,7 +199,7 @@ censored_mean <- function(values, directions, n_missing) {
                 pnorm(z, p[1], sigma, log.p = TRUE))))
   }
   best <- optim(c(0, 0), loss, method = "BFGS", control = list(reltol = 1e-14, maxit = 1000))
-  center + scale * best$par[1]
+  exp(center + scale * best$par[1] + (scale * exp(best$par[2]))^2 / 2)
 }
 
 jnds <- function() {
@@ -204,11 +214,12 @@ jnds <- function() {
         sessions <- lapply(split(theirs, key(theirs)), function(session) {
           found <- results[match(paste(key(session), session$staircase),
                                  paste(key(results), results$staircase)), ]
-          mean_estimate(found$shown_g, found$direction)
+          c(mean_estimate(found$shown_g, found$direction), as_logged = mean(found$jnd_g))
         })
         known <- Filter(function(one) !is.na(one$value), sessions)
-        mean_estimate(vapply(known, function(one) one$value, 0),
-                      vapply(known, function(one) one$direction, ""))
+        c(mean_estimate(vapply(known, function(one) one$value, 0),
+                        vapply(known, function(one) one$direction, "")),
+          as_logged = known_mean(vapply(sessions, function(one) one$as_logged, 0)))
       })
       report_jnds(people, "jnd", "all staircases", condition, reference)
       for (side in c("from_above", "from_below")) {
@@ -226,10 +237,12 @@ report_jnds <- function(people, figure, staircases, condition, reference) {
   n_above <- sum(direction == "above", na.rm = TRUE)
   n_below <- sum(direction == "below", na.rm = TRUE)
   mean_g <- censored_mean(value[!is.na(value)], direction[!is.na(value)], n_missing)
-  cat(sprintf("%s %g g, %s: mean %s g; %d people, %d above, %d below, %d unknown\n", condition,
-              reference, staircases, number(mean_g), length(value),
+  paper_mean_g <- known_mean(vapply(people, function(one) one$as_logged, 0))
+  cat(sprintf("%s %g g, %s: mean %s g, the paper's own %s g; %d people, %d above, %d below, %d unknown\n",
+              condition, reference, staircases, number(mean_g), number(paper_mean_g), length(value),
               n_above, n_below, n_missing))
   record(paste0(figure, ".mean_g"), condition, reference, mean_g)
+  record(paste0(figure, ".paper_mean_g"), condition, reference, paper_mean_g)
   record(paste0(figure, ".n"), condition, reference, length(value))
   record(paste0(figure, ".n_censored_above"), condition, reference, n_above)
   record(paste0(figure, ".n_censored_below"), condition, reference, n_below)
@@ -245,7 +258,7 @@ by_start <- function(here, results, side) {
       if (length(unique(found$start_g)) < 2) return(found[0, ])
       found[(found$start_g > mean(range(found$start_g))) == (side == "from_above"), ]
     }))
-    mean_estimate(own$shown_g, own$direction)
+    c(mean_estimate(own$shown_g, own$direction), as_logged = mean(own$jnd_g))
   })
 }
 
