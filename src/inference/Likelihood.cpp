@@ -66,11 +66,11 @@ Parameters Likelihood::step_against(const Parameters& slope, const Parameters& a
   return solver.eigenvectors() * along;
 }
 
-bool Likelihood::climb_by_newton(Maximum& best, Eigen::Index held) {
+bool Likelihood::climb_by_newton(Maximum& best, Eigen::Index held, double enough) {
   best.log_likelihood = function_(best.at, &derivatives_);
   // Remaining gain in log likelihood, and with very many trials the rounding error of the sum.
   const double of_digits = std::abs(best.log_likelihood) * std::numeric_limits<double>::epsilon();
-  const double good_enough = std::max(held < 0 ? 1e-13 : 1e-10, of_digits);
+  const double good_enough = std::max({held < 0 ? 1e-13 : 1e-10, of_digits, enough});
   for (int i = 0; i < 100; ++i) {
     const Parameters step = step_against(derivatives_.gradient, best.at, held);
     const double to_gain = step.dot(derivatives_.gradient);
@@ -89,9 +89,9 @@ bool Likelihood::climb_by_newton(Maximum& best, Eigen::Index held) {
   return false;
 }
 
-Maximum Likelihood::climb(Parameters from, Eigen::Index held) {
+Maximum Likelihood::climb(Parameters from, Eigen::Index held, double enough) {
   Maximum best{within_bounds(std::move(from)), 0};
-  return climb_by_newton(best, held) ? best : climb_by_nlopt(best, held);
+  return climb_by_newton(best, held, enough) ? best : climb_by_nlopt(best, held);
 }
 
 // Sequential quadratic programming (Kraft 1994). It may stop for lack of digits, even at no number:

@@ -42,7 +42,8 @@ class Likelihood {
   bool is_one_hill() const { return starts_.size() == 1; }
   Maximum maximum();
   /// To the nearest maximum; one parameter may be held.
-  Maximum climb(Parameters from, Eigen::Index held = -1);
+  /// @param enough so near that Newton's method expects to gain no more; 0: as near as digits go
+  Maximum climb(Parameters from, Eigen::Index held = -1, double enough = 0);
   /// With one parameter held. @param from where to start for the others
   Maximum profile(Eigen::Index held, double held_value, Parameters from);
   /// The likelier of where two starts lead.
@@ -56,7 +57,7 @@ class Likelihood {
 
  private:
   /// @return whether it got there
-  bool climb_by_newton(Maximum& from, Eigen::Index held);
+  bool climb_by_newton(Maximum& from, Eigen::Index held, double enough);
   Maximum climb_by_nlopt(const Maximum& from, Eigen::Index held);
   Parameters step_against(const Parameters& slope, const Parameters& at, Eigen::Index held) const;
   bool can_climb_along(Eigen::Index i, const Parameters& at) const;

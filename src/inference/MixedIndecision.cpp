@@ -53,7 +53,8 @@ Profile profile_of(const AnswersByLevel& by_level, double largest_g, Parameters 
   const auto put = [&](PersonIntegral& person, std::size_t place) {
     const double s = std::abs(sensitivity_at(static_cast<double>(place)));
     population[mean_log_sensitivity] = s > 0 ? std::log(s) : none;
-    profile[place] = person.laplace(population);
+    person.center(population);
+    profile[place] = person.log_likelihood(population, nullptr);
   };
   PersonIntegral upwards(on_scale(by_level, largest_g));
   PersonIntegral downwards(on_scale(by_level, largest_g, true));
@@ -125,27 +126,25 @@ void put_single(MixedFit& found, const AnswersByLevel& answers) {
   if (found.identifiable()) put(found.threshold_75_g, "threshold_75_g");
 }
 
-// Of the sensitivity per g. Where larger levels answered as smaller are as likely, there is none, or
-// it is negative.
-SensitivityRange range_of(const Maximum& best, const PopulationLikelihood::ProfileInterval& logs,
+// Of the sensitivity per g. If none is likely, the answers may go against the levels: then as if
+// larger levels had been answered as smaller there is one.
+SensitivityRange range_of(const PopulationLikelihood::ProfileInterval& logs,
                           const AnswersByPerson& people, double largest_g) {
-  const auto per_g = [largest_g](const std::optional<double>& log_sensitivity, double sign) {
-    return log_sensitivity ? std::optional(sign * std::exp(*log_sensitivity) / largest_g)
-                           : std::nullopt;
+  const auto per_g = [largest_g](const std::optional<double>& log_sensitivity) {
+    return log_sensitivity ? std::optional(std::exp(*log_sensitivity) / largest_g) : std::nullopt;
   };
-  if (!logs.low && !logs.high) return {};
+  if (logs.low || !logs.high) return {per_g(logs.low), per_g(logs.high), logs.low && !logs.high};
   PopulationLikelihood mirrored(on_scale(people, largest_g, true), std::nullopt);
-  Maximum down = mirrored.maximum();
-  if (down.log_likelihood < best.log_likelihood)
-    return {per_g(logs.low, 1), per_g(logs.high, 1), logs.low && !logs.high};
-  const auto [low, high] = mirrored.interval(down, mean_log_sensitivity);
-  if (low) return {per_g(high, -1), per_g(low, -1)};
-  return {per_g(high, -1), per_g(logs.high, 1)};
+  const Maximum down = mirrored.maximum();
+  if (mirrored.excludes_no_sensitivity(down))
+    return {std::nullopt, -std::exp(down.at[mean_log_sensitivity]) / largest_g};
+  return {std::nullopt, per_g(logs.high)};
 }
 
-// Scaled to the width of the profile interval: the jackknife's own standard error is too small where
-// people have few trials (its interval covered 88 to 94 %).
-void put_influence(MixedFit& found, const AnswersByPerson& people, const std::vector<double>& influences) {
+// Scaled to the width of the profile interval: the jackknife's own standard error is too small
+// where people have few trials (its interval covered 88 to 94 %).
+void put_influence(MixedFit& found, const AnswersByPerson& people,
+                   const std::vector<double>& influences) {
   const double n = found.n;
   double square = 0;
   for (const double influence : influences) square += influence * influence;
@@ -160,20 +159,20 @@ void put_population(MixedFit& found, const AnswersByPerson& people, double large
   PopulationLikelihood likelihood(on_scale(people, largest_g), std::nullopt);
   Maximum best = likelihood.maximum();
   const auto log_sensitivity = likelihood.interval(best, mean_log_sensitivity);
+  found.why = why_no_threshold(range_of(log_sensitivity, people, largest_g), {largest_g});
+  if (!log_sensitivity.high) return;  // nor are there criteria
   const auto log_criterion = likelihood.interval(best, mean_log_criterion);
   const auto lapse = likelihood.interval(best, shared_lapse);
   found.log_likelihood = best.log_likelihood;
-  found.why = why_no_threshold(range_of(best, log_sensitivity, people, largest_g), {largest_g});
-  if (!log_sensitivity.high) return;  // nor are there criteria
   for (const auto& [participant, answers] : people)
     found.people[participant] = own_sensitivity(answers, largest_g, best.at);
   found.indecision = figure(best.at[mean_log_criterion], log_criterion);
   found.lapse = MixedFigure{best.at[shared_lapse], lapse.low.value_or(0), lapse.high};
   if (!found.identifiable()) return;
   found.sensitivity = figure(best.at[mean_log_sensitivity], log_sensitivity, 1 / largest_g);
-  found.threshold_75_g = MixedFigure{z_75 / found.sensitivity->value,
-                                     z_75 / *found.sensitivity->high,
-                                     z_75 / *found.sensitivity->low};
+  found.threshold_75_g =
+      MixedFigure{z_75 / found.sensitivity->value, z_75 / *found.sensitivity->high,
+                  z_75 / *found.sensitivity->low};
   found.sd_log_sensitivity = std::exp(best.at[log_sd_sensitivity]);
   found.sd_log_indecision = std::exp(best.at[log_sd_criterion]);
   found.correlation = std::tanh(best.at[arctanh_correlation]);
@@ -207,6 +206,27 @@ MixedFit fit_mixed_indecision(AnswersByPerson people) {
         "{} participants are too few to estimate how people differ, expected {} or more", found.n,
         least_people);
   return found;
+}
+
+Fit MixedFit::summary() const {
+  Fit fit{{}, std::nullopt, n_trials, 0, why};
+  if (sensitivity || indecision) fit.log_likelihood = log_likelihood;
+  const auto put = [&](const char* name, const std::optional<MixedFigure>& of) {
+    FittedParameter& one = fit.parameters.emplace_back(FittedParameter{name});
+    if (of) one = {name, of->value, std::nullopt, of->low, of->high};
+  };
+  const auto alone = [](const std::optional<double>& value) {
+    return value ? std::optional(MixedFigure{*value}) : std::nullopt;
+  };
+  put("sensitivity", sensitivity);
+  put("indecision", indecision);
+  put("lapse", lapse);
+  put("sd_log_sensitivity", alone(sd_log_sensitivity));
+  put("sd_log_indecision", alone(sd_log_indecision));
+  put("correlation", alone(correlation));
+  put("sd_bias", alone(sd_bias));
+  put("threshold_75_g", threshold_75_g);
+  return fit;
 }
 
 OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* own) {

@@ -73,6 +73,9 @@ struct MixedFit {
   std::map<std::string, double> influence;
 
   bool identifiable() const { return why.empty(); }
+  /// sensitivity, indecision, lapse, sd_log_sensitivity, sd_log_indecision, correlation, sd_bias and
+  /// threshold_75_g, without standard errors.
+  Fit summary() const;
 };
 
 /// Identifiable: the interval of the sensitivity lies above 0 and is bounded, and that of the

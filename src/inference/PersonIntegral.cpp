@@ -183,7 +183,7 @@ PersonIntegral::PersonIntegral(std::vector<LevelAnswers> answers)
       if (level.n[answer] > 0) given_.push_back({level.level, level.n[answer], answer});
 }
 
-double PersonIntegral::find_mode(const Parameters& population) {
+void PersonIntegral::find_mode(const Parameters& population) {
   const Distribution people(population);
   const Eigen::Matrix3d precision = people.precision();
   const PersonEffects mean(people.mean_s, people.mean_t, 0);
@@ -196,10 +196,13 @@ double PersonIntegral::find_mode(const Parameters& population) {
     all.bend -= precision;
     return all;
   };
-  if (!has_mode_) mode_ = mean;
-  has_mode_ = true;
   constexpr double longest_step = 2, small_gain = 1e-9;
-  PersonLikelihood here = posterior(mode_);
+  PersonLikelihood here = posterior(has_mode_ ? mode_ : mean);
+  if (!has_mode_ || !here.bend.allFinite()) {  // or so far from the last that no digits are left
+    mode_ = mean;
+    here = posterior(mode_);
+  }
+  has_mode_ = true;
   for (int i = 0; i < 50; ++i) {
     Eigen::Vector3d step = uphill(here.bend, here.slope);
     if (step.dot(here.slope) < small_gain) break;
@@ -212,18 +215,13 @@ double PersonIntegral::find_mode(const Parameters& population) {
     here = there;
   }
   curvature_ = -here.bend;
-  return here.value + people.log_density_at_mean;
-}
-
-double PersonIntegral::laplace(const Parameters& population) {
-  const double at_mode = find_mode(population);
-  return at_mode + (3 * std::log(2 * std::numbers::pi) - std::log(curvature_.determinant())) / 2;
 }
 
 void PersonIntegral::center(const Parameters& population) {
   find_mode(population);
   Eigen::LLT<Eigen::Matrix3d> factor(curvature_);
-  if (factor.info() != Eigen::Success) factor.compute(Distribution(population).precision());
+  if (factor.info() != Eigen::Success || !curvature_.allFinite())
+    factor.compute(Distribution(population).precision());
   const double log_scale = -factor.matrixLLT().diagonal().array().log().sum();
   nodes_.clear();
   shares_.clear();

@@ -41,10 +41,9 @@ class PersonIntegral {
   void center(const Parameters& population);
   /// Log of the integral. @param derivatives by the population, to be added to; null: not needed
   double log_likelihood(const Parameters& population, Derivatives* derivatives);
-  /// Log of the integral by Laplace's method, around the most likely effects.
-  double laplace(const Parameters& population);
   /// Gradient of the last log_likelihood with derivatives.
   const Parameters& score() const { return score_; }
+
  private:
   struct Given {  // one kind of answer at one level
     double level = 0, n = 0;
@@ -64,8 +63,7 @@ class PersonIntegral {
   };
 
   AtNode at_node(const Node& node, double lapse) const;
-  /// @return log of likelihood times density there
-  double find_mode(const Parameters& population);
+  void find_mode(const Parameters& population);
 
   std::vector<LevelAnswers> answers_;
   std::vector<Given> given_;

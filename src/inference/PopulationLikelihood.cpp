@@ -85,7 +85,7 @@ Maximum PopulationLikelihood::climb(Parameters from, Eigen::Index held) {
     center(best.at);
     const std::vector<ParameterBounds> box = near(best.at);
     const Starts starts{{best.at}};
-    const Maximum next = Likelihood(function, box, starts).climb(best.at, held);
+    const Maximum next = Likelihood(function, box, starts).climb(best.at, held, near_enough / 100);
     const double change = std::abs(next.log_likelihood - best.log_likelihood);
     best = next;
     if (i > 0 && change < near_enough) break;
@@ -143,6 +143,7 @@ class ProfileEnd {
     return std::sqrt(std::max(0.0, best_.log_likelihood - at.log_likelihood)) - root_;
   }
   double between(Maximum inner, Maximum outer);
+  Maximum at_extreme_sensitivity(double limit);
 
   PopulationLikelihood& people_;
   const Maximum& best_;
@@ -154,9 +155,10 @@ class ProfileEnd {
 std::optional<double> ProfileEnd::search(double step, Parameters change) {
   const ParameterBounds& bounds = people_.bounds()[static_cast<std::size_t>(of_)];
   const double limit = step < 0 ? bounds.low : bounds.high;
-  const double to_limit = limit - best_.at[of_];
-  if (excess(held_at(limit, best_.at + to_limit * change)) <= 0) return std::nullopt;
+  int n_steps = 0;
   for (Maximum inner = best_; inner.at[of_] != limit; step *= 1.5) {
+    if (++n_steps == 3 && of_ == mean_log_sensitivity && excess(at_extreme_sensitivity(limit)) <= 0)
+      return std::nullopt;
     const double here = inner.at[of_];
     const double to = std::abs(limit - here) <= std::abs(step) ? limit : here + step;
     const Maximum outer = held_at(to, inner.at + (to - here) * change);
@@ -165,6 +167,15 @@ std::optional<double> ProfileEnd::search(double step, Parameters change) {
     inner = outer;
   }
   return std::nullopt;
+}
+
+// Where answers leave it open there, further steps are spared. The criteria of the highest
+// sensitivity lie at the same levels as before; what they don't explain are lapses.
+Maximum ProfileEnd::at_extreme_sensitivity(double limit) {
+  Parameters change = Parameters::Zero(n_population_parameters);
+  if (limit > 0) change[mean_log_criterion] = limit - best_.at[mean_log_sensitivity];
+  change[shared_lapse] = 0.02;
+  return held_at(limit, best_.at + change);
 }
 
 // Regula falsi until the straight line is as good as the profile.
@@ -198,6 +209,13 @@ PopulationLikelihood::ProfileInterval PopulationLikelihood::interval(Maximum& be
     if (i == 5 || likeliest.log_likelihood <= best.log_likelihood + likelier_by) return found;
     best = climb(likeliest.at);
   }
+}
+
+bool PopulationLikelihood::excludes_no_sensitivity(const Maximum& best) {
+  Parameters at = best.at;
+  at[mean_log_sensitivity] = bounds_[mean_log_sensitivity].low;
+  const double without = climb(std::move(at), mean_log_sensitivity).log_likelihood;
+  return best.log_likelihood - without > interval_drop_of(people_.size());
 }
 
 std::vector<double> PopulationLikelihood::influences(const Maximum& best, Eigen::Index of) {

@@ -37,6 +37,9 @@ class PopulationLikelihood {
   /// @param best put in its place: what is likelier, if the search finds it
   ProfileInterval interval(Maximum& best, Eigen::Index of);
 
+  /// Whether a sensitivity of 0 lies outside the interval.
+  bool excludes_no_sensitivity(const Maximum& best);
+
   /// By person: how the estimate of one parameter would change, to first order, if the person's
   /// answers counted twice (infinitesimal jackknife).
   std::vector<double> influences(const Maximum& best, Eigen::Index of);
