@@ -36,6 +36,7 @@ class AnswerReader {
   std::optional<double> count(const CsvCell& cell);
   AnswerGroup& group(const Row& row);
   std::optional<std::size_t> column(std::string_view name) const;
+  std::optional<std::size_t> asked_for(const std::optional<std::string>& name) const;
   bool has(std::initializer_list<std::string_view> names) const;
   void refuse(const CsvCell& cell, std::string message);
 
@@ -83,12 +84,17 @@ void AnswerReader::read_header() {
   n_positive_ = column("n_positive").value_or(0);
   n_ = column("n").value_or(0);
   if (!is_counted_) answer_ = *column(indecision ? "answer" : "response");
-  person_ = has({"person"}) ? column("person") : column("participant");
-  if (!format_.group_by) return;
-  group_by_ = column(*format_.group_by);
+  group_by_ = asked_for(format_.group_by);
+  person_ = asked_for(format_.person);
+  if (!person_) person_ = has({"person"}) ? column("person") : column("participant");
+}
+
+std::optional<std::size_t> AnswerReader::asked_for(const std::optional<std::string>& name) const {
+  if (!name) return std::nullopt;
+  if (const auto found = column(*name)) return found;
   std::vector<std::string_view> names;
   for (const CsvCell& cell : header_) names.push_back(cell.text);
-  if (!group_by_) throw unknown_name("column", *format_.group_by, names);
+  throw unknown_name("column", *name, names);
 }
 
 void AnswerReader::read_row(const Row& row) {
@@ -100,8 +106,11 @@ void AnswerReader::read_row(const Row& row) {
   if (!at || !n) return;
   AnswerGroup& its = group(row);
   if (*n == std::array<double, 3>{}) return;  // the level was not shown
-  for (std::size_t k = 0; k < n->size(); ++k) its.answers[*at][k] += (*n)[k];
-  if (person_) its.people.insert(row[*person_].text);
+  const auto add = [&](AnswersByLevel& to) {
+    for (std::size_t k = 0; k < n->size(); ++k) to[*at][k] += (*n)[k];
+  };
+  add(its.answers);
+  if (person_) add(its.people[row[*person_].text]);
 }
 
 std::optional<double> AnswerReader::level(const CsvCell& cell) {

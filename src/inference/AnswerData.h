@@ -1,15 +1,15 @@
 // Files of answers for a fit: CSV with a header. Psychometric: columns x, n_positive and n, or a
 // row a trial with x and response (0 or 1). Indecision: level_g and answer (comparison, reference,
-// none). Columns stand in any order, and others may stand beside them.
+// none). Columns stand in any order, and others may stand beside them; `person` or `participant`
+// says who answered.
 #pragma once
 
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "inference/Fit.h"
+#include "inference/MixedIndecision.h"
 
 namespace heft {
 
@@ -22,14 +22,15 @@ struct EnumNames<FitModel> {
 struct AnswerGroup {
   std::optional<std::string> name;  ///< the text in the column that groups; none: there is none
   AnswersByLevel answers;           ///< of levels that were shown
-  /// Who answered, where a column `person` or `participant` says so.
-  std::set<std::string> people{};
+  AnswersByPerson people{};  ///< the same, where a column says who answered
 };
 
 struct AnswerFormat {
   FitModel model = FitModel::psychometric;
   std::optional<std::string> group_by{};  ///< a column's name
   bool takes_logarithm = false;           ///< levels below 0 are refused
+  /// The column of who answered. None: `person` or `participant`, if there is one.
+  std::optional<std::string> person{};
 };
 
 /// Groups in the order of their first rows; one without a name where nothing groups.

@@ -12,6 +12,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Key;
 using testing::Pair;
 
 const AnswerFormat psychometric{};
@@ -30,8 +31,8 @@ TEST(AnswerData, SaysWhoAnsweredInEachGroup) {
                          "data.csv", {FitModel::psychometric, "room", false});
   };
   for (const char* column : {"person", "participant"}) {
-    EXPECT_THAT(people(column).at(0).people, ElementsAre("P1", "P2"));
-    EXPECT_THAT(people(column).at(1).people, ElementsAre("P1"));
+    EXPECT_THAT(people(column).at(0).people, ElementsAre(Key("P1"), Key("P2")));
+    EXPECT_THAT(people(column).at(1).people, ElementsAre(Key("P1")));
   }
   EXPECT_TRUE(people("who").at(0).people.empty());
 }

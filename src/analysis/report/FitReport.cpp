@@ -35,6 +35,20 @@ Table table_of(const NamedFit& named) {
   return table;
 }
 
+Table table_of_people(const NamedFit& named) {
+  Table table{"people", "Each person's threshold", {}, {}, ""};
+  table.columns = {{"person", "person"}, {"value", "threshold g"},
+                   {"low", "95 % from"}, {"high", "to"}, {"why", "no threshold: why"}};
+  for (const auto& [person, own] : named.people) {
+    const auto end = [&](double Interval::*of) {
+      return own.interval_g ? figure(*own.interval_g.*of) : Cell{};
+    };
+    table.rows.push_back({word(person), figure(own.threshold_75_g), end(&Interval::low),
+                          end(&Interval::high), word(own.why.empty() ? " " : own.why)});
+  }
+  return table;
+}
+
 ordered_json or_null(const std::optional<double>& value) {
   return value ? ordered_json(*value) : nullptr;
 }
@@ -45,6 +59,15 @@ ordered_json object_of(const FittedParameter& parameter) {
           {"low", or_null(parameter.low)},
           {"high", or_null(parameter.high)},
           {"fixed", parameter.fixed}};
+}
+
+ordered_json object_of(const OwnThreshold& own) {
+  ordered_json object{{"value", or_null(own.threshold_75_g)}};
+  object["low"] = own.interval_g ? ordered_json(own.interval_g->low) : nullptr;
+  object["high"] = own.interval_g ? ordered_json(own.interval_g->high) : nullptr;
+  object["identifiable"] = own.why.empty();
+  object["why"] = own.why.empty() ? nullptr : ordered_json(own.why);
+  return object;
 }
 
 ordered_json object_of(const NamedFit& named) {
@@ -60,6 +83,7 @@ ordered_json object_of(const NamedFit& named) {
   object["n_trials"] = static_cast<std::int64_t>(fit.n_trials);
   object["identifiable"] = fit.identifiable();
   object["why"] = fit.identifiable() ? nullptr : ordered_json(fit.why);
+  for (const auto& [person, own] : named.people) object["people"][person] = object_of(own);
   return object;
 }
 }  // namespace
@@ -69,6 +93,7 @@ std::string fits_as_text(std::span<const NamedFit> fits) {
   for (const NamedFit& fit : fits) {
     if (!text.empty()) text += '\n';
     text += as_text(table_of(fit));
+    if (!fit.people.empty()) text += '\n' + as_text(table_of_people(fit));
   }
   return text;
 }

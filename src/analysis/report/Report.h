@@ -2,13 +2,14 @@
 // screen.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "analysis/dataset/Summary.h"
-#include "inference/Fit.h"
+#include "inference/MixedIndecision.h"
 
 namespace heft {
 
@@ -54,14 +55,17 @@ std::string as_json(const Summary& summary);
 struct NamedFit {
   std::optional<std::string> group;
   Fit fit;
+  std::map<std::string, OwnThreshold> people{};  ///< of a mixed fit
 };
 
-/// A table a group, and why there is no threshold where there is none.
+/// A table a group, and why there is no threshold where there is none; of a mixed fit a second
+/// table of each person's threshold.
 std::string fits_as_text(std::span<const NamedFit> fits);
 
 /// A list of objects: group, parameters (value, se, low, high, fixed; null for what does not
 /// exist), log_likelihood, n_trials, identifiable, why (null where identifiable); indecision has
-/// threshold_75_g beside the parameters too.
+/// threshold_75_g beside the parameters too. Of a mixed fit also people, an object by name: value,
+/// low, high, identifiable, why.
 std::string fits_as_json(std::span<const NamedFit> fits);
 
 }  // namespace heft

@@ -20,7 +20,7 @@ namespace heft::cli {
 namespace {
 struct FitCommandOptions {
   std::string data, model;
-  std::optional<std::string> function, scale, guess, lapse, group_by;
+  std::optional<std::string> function, scale, guess, lapse, group_by, person;
   bool json = false;
 };
 
@@ -47,6 +47,9 @@ FitOptions fit_options(const FitCommandOptions& options, FitModel model) {
   fit.lapse = share("--lapse", options.lapse);
   if (model == FitModel::indecision && (options.function || options.scale || options.guess))
     throw Error("--function, --scale and --guess belong to --model psychometric", ExitCode::usage);
+  if (options.person && (model != FitModel::indecision || options.lapse))
+    throw Error("--person belongs to --model indecision, with a lapse rate that is fitted",
+                ExitCode::usage);
   if (fit.guess.value_or(0) + fit.lapse.value_or(0) >= 1)
     throw Error("--guess and --lapse add up to 1 or more, expected less than 1", ExitCode::usage);
   if (options.function) fit.function.shape = *named<PsychometricShape>(*options.function);
@@ -54,15 +57,30 @@ FitOptions fit_options(const FitCommandOptions& options, FitModel model) {
   return fit;
 }
 
+// As heft analyse does: differences between people are in the model.
+NamedFit fit_people(const AnswerGroup& group) {
+  const MixedFit mixed = fit_mixed_indecision(group.people);
+  NamedFit named{group.name, mixed.summary(), {}};
+  named.fit.n_levels = group.answers.size();
+  for (const auto& [person, answers] : group.people) {
+    const auto own = mixed.people.find(person);
+    named.people[person] =
+        own_threshold(answers, own == mixed.people.end() ? nullptr : &own->second);
+  }
+  return named;
+}
+
 // Staircases show larger levels to less sensitive people, so pooling overestimates the threshold.
-void warn_of_pooled(std::span<const AnswerGroup> groups) {
+void warn_of_pooled(std::span<const AnswerGroup> groups, FitModel model) {
   const auto most = std::ranges::max_element(
       groups, {}, [](const AnswerGroup& group) { return group.people.size(); });
   if (most == groups.end() || most->people.size() < 2) return;
   say("heft: warning: {}trials of {} people are pooled into one fit. If staircases chose the "
-      "levels, the threshold is overestimated (1.4 to 2.4 times in simulations); fit one person "
-      "per file, or use heft analyse, which models differences between people.\n",
-      most->name ? *most->name + ": " : "", most->people.size());
+      "levels, the threshold is overestimated (1.4 to 2.4 times in simulations), because "
+      "insensitive people see larger levels. {}\n",
+      most->name ? *most->name + ": " : "", most->people.size(),
+      model == FitModel::indecision ? "Name the column of people: --person COLUMN."
+                                    : "Fit one person at a time: --by COLUMN.");
 }
 
 void fit(const FitCommandOptions& options) {
@@ -70,12 +88,16 @@ void fit(const FitCommandOptions& options) {
   const FitOptions how = fit_options(options, model);
   std::vector<NamedFit> fits;
   const std::vector<AnswerGroup> groups =
-      load_answers(options.data, {model, options.group_by, how.function.takes_logarithm()});
-  warn_of_pooled(groups);
+      load_answers(
+      options.data, {model, options.group_by, how.function.takes_logarithm(), options.person});
+  if (!options.person) warn_of_pooled(groups, model);
   for (const AnswerGroup& group : groups)
-    fits.push_back({group.name, model == FitModel::indecision
-                                    ? fit_indecision(group.answers, how)
-                                    : fit_psychometric(group.answers, how)});
+    if (options.person)
+      fits.push_back(fit_people(group));
+    else
+      fits.push_back({group.name, model == FitModel::indecision
+                                      ? fit_indecision(group.answers, how)
+                                      : fit_psychometric(group.answers, how)});
   if (options.json)
     fmt::print("{}", fits_as_json(fits));
   else
@@ -90,7 +112,8 @@ void add_fit(Command& app) {
       {"heft fit answers.csv --model psychometric --function logistic",
        "heft fit forced_choice.csv --model psychometric --function weibull --guess 0.5 --lapse "
        "free",
-       "heft fit choices.csv --model indecision --lapse 0.02 --by participant --json", "",
+       "heft fit choices.csv --model indecision --lapse 0.02 --by participant --json",
+       "heft fit choices.csv --model indecision --person participant", "",
        "DATA.csv begins with a header. Psychometric: x,n_positive,n or, a row a trial,",
        "x,response (0 or 1). Indecision: level_g,answer (comparison, reference or none).", "",
        "Psychometric: p(x) = guess + (1 - guess - lapse) F(x). With threshold t and slope s",
@@ -99,7 +122,9 @@ void add_fit(Command& app) {
        "or 1 - exp(-10^(s (x - t) / 20)) (db).",
        "Indecision: D = sensitivity * level_g + bias + N(0, 1); comparison where D > indecision,",
        "reference where D < -indecision, otherwise none; a lapse is any of them.",
-       "threshold_75_g = 0.6745 / sensitivity makes 75 % correct in a forced choice.", "",
+       "threshold_75_g = 0.6745 / sensitivity makes 75 % correct in a forced choice.",
+       "With --person these differ between people: the mixed model of heft analyse, with a lapse",
+       "rate that all share, gives figures of the median person and each one's threshold.", "",
        "Maximum-likelihood estimates; SE from the observed information; 95 % profile intervals.",
        "If the threshold is not identifiable, the reason is printed instead."});
   command.add_option("DATA.csv", &options->data, "the answers").required();
@@ -117,6 +142,8 @@ void add_fit(Command& app) {
   command.add_option("--lapse", &options->lapse,
                      "lapse rate: fixed, or \"free\" up to 0.5. Default: 0");
   command.add_option("--by", &options->group_by, "one fit for each value of this column");
+  command.add_option("--person", &options->person,
+                     "indecision: the column of who answered; one fit of all people, who differ");
   command.add_flag("--json", options->json, "JSON on stdout instead of tables");
   command.does([options] { fit(*options); });
 }
