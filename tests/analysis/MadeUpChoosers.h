@@ -65,6 +65,9 @@ inline ComparisonDesign papers_at(double reference_g) {
 /// Adds the trials and estimates of one person's comparisons at one reference.
 inline void compare(SessionData& data, const Chooser& chooser, const ComparisonDesign& design,
                     RandomStream& stream) {
+  const auto name_of = [&design](std::size_t index) {
+    return std::to_string(static_cast<int>(design.reference_g)) + "g " + std::to_string(index);
+  };
   std::vector<UpDown> staircases;
   for (double start_g : design.starts_g) {
     UpDownConfig config;
@@ -75,7 +78,10 @@ inline void compare(SessionData& data, const Chooser& chooser, const ComparisonD
     config.ceiling = 1500;
     config.stop_reversals = design.stop_reversals;
     config.stop_trials = 60;
+    const std::string name = name_of(staircases.size());
     staircases.emplace_back(config);
+    data.staircases[name] = {std::make_shared<const Procedure>(name, config),
+                             design.only_right_choices};
   }
   for (;;) {
     std::vector<std::size_t> open;
@@ -87,8 +93,7 @@ inline void compare(SessionData& data, const Chooser& chooser, const ComparisonD
     const double level_g = is_catch ? 0 : staircases[index].level();
     const int reference_slot = stream.coin(0.5) ? 1 : 2;
     const int answer = chooser.answer(reference_slot == 1 ? level_g : -level_g, stream);
-    const std::string name =
-        std::to_string(static_cast<int>(design.reference_g)) + "g " + std::to_string(index);
+    const std::string name = name_of(index);
     Attempt& attempt = add_comparison(data, is_catch ? "" : name, design.reference_g, level_g);
     attempt.trial.plan.is_catch = is_catch;
     attempt.trial.plan.reference_slot = reference_slot;

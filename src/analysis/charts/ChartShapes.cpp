@@ -129,10 +129,11 @@ class Drawing {
 
   PlotPanel against_x(PlotPanel panel, const std::vector<Drawn>& all) const {
     const bool joined = spec_.shape == ChartShape::lines;
-    const bool side_by_side = !joined && !spec_.curve;
+    const bool side_by_side = !joined && !spec_.bands;
     const XAxis axis(all, spec_.x, has_axes("logscale x"));
     panel.axes += axis.axes();
     std::string published;
+    for (const ChartSeries& series : spec_.series) add_band(panel, axis, series);
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Drawn& drawn = all[i];
       const double aside =
@@ -155,9 +156,6 @@ class Drawing {
           joined ? "yerrorlines" : "yerrorbars", joined ? series_dash(drawn.look) : 1,
           series_sign(drawn.look), series_color(drawn.look));
       panel.layers.push_back({rows, how, drawn.title, rows.empty()});
-      if (spec_.curve && drawn.look == 0 && !drawn.estimates.empty())
-        if (std::string terms = spec_.curve(summary_, *drawn.estimates.front()); !terms.empty())
-          panel.layers.push_back({"", std::move(terms), ""});
     }
     add_reference(panel, axis, static_cast<double>(all.size()) / 2 + 0.1);
     panel.add(published,
@@ -168,10 +166,25 @@ class Drawing {
     return panel;
   }
 
+  // Where the model's estimates are that belong to this panel.
+  void add_band(PlotPanel& panel, const XAxis& axis, const ChartSeries& series) const {
+    if (series.band.empty()) return;
+    std::map<double, std::string> rows;
+    for (const StudyEstimate* one : estimates_of(summary_.estimates, series.band))
+      if (text_of(*one, spec_.panels) == panel.title && one->value)
+        rows[axis.at(*one)] = row_of(axis.at(*one), *one);
+    std::string sorted;
+    for (const auto& [x, row] : rows) sorted += row;
+    const auto look = static_cast<std::size_t>(&series - spec_.series.data());
+    panel.add(sorted, fmt::format("using 1:3:4 with filledcurves fillstyle transparent solid 0.18 "
+                                  "noborder linecolor '{}'",
+                                  series_color(look)));
+  }
+
   // Points beside their mean, arrows where an estimate is censored; of lines a thin one each.
   void add_participants(PlotPanel& panel, const XAxis& axis, const Drawn& drawn,
                         double aside) const {
-    if (spec_.shape == ChartShape::lines || spec_.curve) {
+    if (spec_.shape == ChartShape::lines || spec_.bands) {
       std::map<std::string, std::string> lines;
       for (const StudyEstimate* one : drawn.participants)
         lines[one->participant] += row_of(axis.at(*one), *one);

@@ -1,7 +1,6 @@
 // Charts as declarations: what is drawn against what. ChartShapes.cpp draws each shape.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,6 +26,8 @@ struct ChartSeries {
   std::string title{};  ///< in the key; empty: the measure's heading, or what splits the series
   /// Only estimates with this coordinate.
   std::pair<std::string_view, std::string> only{};
+  /// A measure whose interval is drawn as a band behind it.
+  std::string_view band{};
 };
 
 struct ChartSpec {
@@ -45,8 +46,7 @@ struct ChartSpec {
   bool diagonal = false;      ///< where x equals y
   std::string x_label{}, y_label{};
   std::string axes{};  ///< gnuplot's further lines about the axes
-  /// Further gnuplot terms of a panel, such as a model's curve. @param of an estimate in it
-  std::function<std::string(const Summary& summary, const StudyEstimate& of)> curve{};
+  bool bands = false;  ///< behind series; each participant is a thin line
 };
 
 /// None to draw: an empty script. @param of_participants the section's

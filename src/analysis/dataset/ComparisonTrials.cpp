@@ -5,12 +5,6 @@
 namespace heft {
 
 namespace {
-bool is_usable(const Attempt& attempt) {
-  const TrialRow& trial = attempt.trial;
-  return attempt.completed() && trial.plan.task == "comparison" && trial.outcome &&
-         trial.plan.reference_g && trial.plan.level_g && !trial.plan.is_practice;
-}
-
 SideChosen side_chosen(const TrialRow& trial) {
   if (trial.outcome != "difference" || !trial.chosen_slot) return SideChosen::none;
   return *trial.chosen_slot == 1 ? SideChosen::left : SideChosen::right;
@@ -39,7 +33,7 @@ std::uint32_t ComparisonTrials::place_of(const std::string& participant) {
 void ComparisonTrials::add(const SessionData& data) {
   const std::string participant = data.participant();
   for (const Attempt& attempt : data.attempts) {
-    if (!is_usable(attempt)) continue;
+    if (!attempt.is_usable_comparison()) continue;
     const TrialPlan& plan = attempt.trial.plan;
     const Compared compared{*plan.reference_g, plan.condition};
     trials_[compared].push_back(compared_trial(attempt.trial, place_of(participant)));
@@ -76,16 +70,12 @@ std::vector<ComparedTrials> binned(ComparedTrials sorted) {
   const auto put = [&](auto first, auto last) {
     const auto n = static_cast<std::size_t>(last - first);
     const std::size_t n_bins = std::min(most_bins, n);
-    const std::size_t n_before = bins.size();
+    auto from = first;
     for (std::size_t i = 0; i < n_bins; ++i) {
-      const auto from = first + static_cast<std::ptrdiff_t>(i * n / n_bins);
-      const auto to = first + static_cast<std::ptrdiff_t>((i + 1) * n / n_bins);
-      const bool same = bins.size() > n_before && bins.back().back()->level_g == (*from)->level_g &&
-                        bins.back().front()->level_g == (*(to - 1))->level_g;
-      if (same)  // many at a bound
-        bins.back().insert(bins.back().end(), from, to);
-      else
-        bins.emplace_back(from, to);
+      auto to = std::max(from, first + static_cast<std::ptrdiff_t>((i + 1) * n / n_bins));
+      while (to != last && to != from && (*to)->level_g == (*(to - 1))->level_g) ++to;
+      if (to != from) bins.emplace_back(from, to);
+      from = to;
     }
   };
   const auto zero = std::ranges::find_if(sorted, [](const auto* one) { return one->level_g >= 0; });
@@ -94,6 +84,12 @@ std::vector<ComparedTrials> binned(ComparedTrials sorted) {
   if (zero != above) bins.emplace_back(zero, above);
   put(above, sorted.end());
   return bins;
+}
+
+double mean_level_g(const ComparedTrials& bin) {
+  double sum_g = 0;
+  for (const ComparedTrial* trial : bin) sum_g += trial->level_g;
+  return sum_g / static_cast<double>(bin.size());
 }
 
 }  // namespace heft

@@ -61,8 +61,9 @@ std::map<std::string, AnswersByLevel> answers_by_side(const ComparisonTrials& tr
 using ComparedTrials = std::vector<const ComparedTrial*>;
 ComparedTrials pointers_to(const std::deque<ComparedTrial>& trials);
 
-/// Trials in bins of neighboring differences, about equally many in each; those at 0, catch trials
-/// included, form a separate bin.
+/// Trials in bins of neighboring differences, lowest first, about equally many in each; those of
+/// equal differences together, and those at 0, catch trials included, in a bin of their own.
 std::vector<ComparedTrials> binned(ComparedTrials trials);
+double mean_level_g(const ComparedTrials& bin);
 
 }  // namespace heft

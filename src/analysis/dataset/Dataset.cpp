@@ -12,8 +12,14 @@
 #include "base/Error.h"
 #include "protocol/Protocol.h"
 #include "record/export/Export.h"
+#include "tasks/Comparison.h"
 
 namespace heft {
+
+bool Attempt::is_usable_comparison() const {
+  return completed() && trial.plan.task == "comparison" && trial.outcome &&
+         trial.plan.reference_g && trial.plan.level_g && !trial.plan.is_practice;
+}
 
 std::vector<double> Attempt::masses_g() const {
   std::vector<double> masses;
@@ -143,6 +149,7 @@ EventCounts count_events(const std::vector<LoggedEvent>& events) {
 namespace {
 struct Declared {
   std::set<std::string> without_jnd;
+  std::map<std::string, StaircaseRun> staircases;
   std::optional<AnalysisPlan> plan;
   ExclusionRules exclusion;
   std::map<std::string, published::Condition> published_conditions;
@@ -153,14 +160,26 @@ constexpr std::array counted_kinds{event_kind<Note>,         event_kind<Deviatio
                                    event_kind<CameraReport>, event_kind<Consent>,
                                    event_kind<EffectorLost>};
 
+std::map<std::string, StaircaseRun> staircases_in(const Protocol& protocol) {
+  std::map<std::string, StaircaseRun> runs;
+  for (const Block& block : protocol.blocks)
+    if (const auto* comparison = block_as<Comparison::Block>(block))
+      for (const ReferenceStaircase& entry : comparison->staircases)
+        runs[entry.staircase.name()] = {
+            std::make_shared<const Procedure>(entry.staircase),
+            comparison->positive_answer == PositiveAnswer::correct_choice};
+  return runs;
+}
+
 // --set may change a technique's parameters; the text stays as it was.
 Declared declared_in(const std::string& protocol_text,
                      const std::vector<ProtocolSetting>& settings) {
-  Declared declared{staircases_without_jnd(protocol_text), {}, {}, {}};
+  Declared declared{staircases_without_jnd(protocol_text), {}, {}, {}, {}};
   try {
     const Protocol protocol = parse_protocol(protocol_text, "protocol", settings);
     if (protocol.analysis.declares_any()) declared.plan = protocol.analysis;
     declared.exclusion = protocol.exclusion;
+    declared.staircases = staircases_in(protocol);
     declared.published_conditions = published::conditions_in(protocol);
   } catch (const Error&) {
   }
@@ -180,6 +199,7 @@ SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& 
   const auto [found, is_new] = declared_by_text.try_emplace({protocol_text, to_text(settings)});
   if (is_new) found->second = declared_in(protocol_text, settings);
   data.without_jnd = found->second.without_jnd;
+  data.staircases = found->second.staircases;
   data.plan = found->second.plan;
   data.exclusion = found->second.exclusion;
   data.published_conditions = found->second.published_conditions;

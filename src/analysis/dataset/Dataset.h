@@ -13,6 +13,7 @@
 
 #include "analysis/dataset/Published.h"
 #include "experiment/Rows.h"
+#include "inference/PredictiveCheck.h"
 #include "protocol/study/AnalysisPlan.h"
 #include "record/reader/LogReader.h"
 
@@ -29,6 +30,8 @@ struct Attempt {
   std::map<int, double> clone_yaw_deg{};
 
   bool completed() const { return trial.status == TrialStatus::completed; }
+  /// A completed comparison with an answer and a level, no practice.
+  bool is_usable_comparison() const;
   std::vector<double> masses_g() const;  ///< by slot
   /// Whether its cubes have these masses, given from light to heavy, and the protocol's friction.
   bool shows(std::span<const double> masses) const;
@@ -83,6 +86,8 @@ struct SessionData {
   std::set<std::string> without_jnd{};
   std::optional<AnalysisPlan> plan{};  ///< what its protocol declares to test; none: nothing
   ExclusionRules exclusion{};
+  /// Its protocol's staircases by name, without choices.
+  std::map<std::string, StaircaseRun> staircases{};
   /// Those of its conditions that the paper measured, by law and parameters.
   std::map<std::string, published::Condition> published_conditions{};
 

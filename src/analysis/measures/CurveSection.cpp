@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 
 #include "analysis/measures/Section.h"
-#include "inference/MixedIndecision.h"
 
 namespace heft {
 
@@ -38,13 +36,6 @@ StudyEstimate at_compared(StudyEstimate estimate, const Compared& compared) {
 }
 
 constexpr std::size_t most_lines = 60;  // more participants are not drawn one by one
-
-double mean_level_g(const ComparedTrials& bin) {
-  const double sum =
-      std::accumulate(bin.begin(), bin.end(), 0.0,
-                      [](double so_far, const auto* one) { return so_far + one->level_g; });
-  return sum / static_cast<double>(bin.size());
-}
 
 // What was chosen in a bin. At 0 either choice is half right, half wrong, and not counted.
 struct BinChoices {
@@ -153,30 +144,6 @@ EstimateTable detection_table() {
   return table;
 }
 
-// The model of a participant in the middle, without side bias.
-std::string model_curves(const Summary& summary, const StudyEstimate& of) {
-  const std::string reference = of.text_at("reference_g");
-  const auto of_model = [&](std::string_view measure) {
-    return find_estimate(summary.estimates, measure,
-                         {{"condition", of.condition}, {"reference_g", reference}});
-  };
-  const StudyEstimate *sensitivity = of_model("sensitivity"), *indecision = of_model("indecision"),
-                      *lapse = of_model("lapse_rate");
-  if (!sensitivity || !sensitivity->why.empty() || !indecision->value) return "";
-  const double s = *sensitivity->value, t = *indecision->value;
-  const double lapses = lapse->value.value_or(fixed_lapse);
-  const auto share = [lapses](const std::string& z) {
-    return fmt::format("100*({0}/3 + (1-{0})*norm({1}))", lapses, z);
-  };
-  // Below 0 the reference is the heavier one.
-  const std::string heavier = share(fmt::format("{}*abs(x)-{}", s, t));
-  const std::string lighter = share(fmt::format("-{}*abs(x)-{}", s, t));
-  return fmt::format(
-      "{0} with lines dashtype 1 linecolor '#2f6fb0' notitle, {1} with lines dashtype 2 linecolor "
-      "'#8a8f98' notitle, 100-({0})-({1}) with lines dashtype 4 linecolor '#3c8d5a'",
-      heavier, lighter);
-}
-
 class CurveSection final : public Section {
  public:
   void put(Summary& summary) override {
@@ -202,53 +169,56 @@ class CurveSection final : public Section {
   }
 
   std::vector<ChartSpec> charts() const override {
-    return {{.name = "choice_curves",
-             .title = "Choices by difference",
-             .caption =
-                 "Percentage of trials in which the heavier cube, the lighter cube or neither "
-                 "was chosen; trials of all participants in bins of about as many, those without "
-                 "a difference apart, with 95 % intervals over participants. Thin lines: how "
-                 "often each participant chose the heavier cube in those bins (not drawn of more "
-                 "than 60). Curves: indecision model of the median participant, where the data "
-                 "identify one.",
-             .csv = "choice_curves.csv",
-             .importance = 25,
-             .series = {{&right}, {&wrong}, {&none}},
-             .x = "mean_level_g",
-             .panels = {"reference_g", "condition"},
-             .participants = true,
-             .x_label = "difference (g)",
-             .y_label = "% of trials",
-             .axes = "set yrange [0:100]\nset samples 200\n",
-             .curve = model_curves},
-            {.name = "hits_and_false_alarms",
-             .title = "Hits against false alarms",
-             .caption = "Each participant's percentage of \"different\" in comparisons with a "
-                        "difference, against those without. On the line a participant says "
-                        "\"different\" whatever is shown.",
-             .csv = "hits_and_false_alarms.csv",
-             .shape = ChartShape::scatter,
-             .importance = 70,
-             .series = {{&alarms}, {&hits}},
-             .split = {"condition"},
-             .diagonal = true,
-             .x_label = "% \"different\" without a difference",
-             .y_label = "% \"different\" with one",
-             .axes = "set xrange [-3:103]\nset yrange [-3:103]\n"},
-            {.name = "times_by_level",
-             .title = "Response time by difference",
-             .caption =
-                 "From all cubes shown to the answer, without pauses and time out of view: median "
-                 "and quartiles of comparisons, by reference and condition.",
-             .csv = "times_by_level.csv",
-             .shape = ChartShape::lines,
-             .importance = 80,
-             .series = {{&time_by_level}},
-             .x = "mean_level_g",
-             .split = {"reference_g", "condition"},
-             .x_label = "difference (g)",
-             .y_label = "response time (s)",
-             .axes = "set yrange [0:*]\n"}};
+    return {
+        {.name = "choice_curves",
+         .title = "Choices by difference",
+         .caption =
+             "Percentage of trials in which the heavier cube, the lighter cube or neither "
+             "was chosen; trials of all participants in bins of about as many, those without "
+             "a difference apart, with 95 % intervals over participants. Thin lines: how "
+             "often each participant chose the heavier cube in those bins (not drawn of more "
+             "than 60). Bands: what the mixed indecision model predicts of 95 % of such studies, "
+             "along the staircases that the participants ran, where the data identify one.",
+         .csv = "choice_curves.csv",
+         .importance = 25,
+         .series = {{&right, "", {}, "predicted_heavier"},
+                    {&wrong, "", {}, "predicted_lighter"},
+                    {&none, "", {}, "predicted_none"}},
+         .x = "mean_level_g",
+         .panels = {"reference_g", "condition"},
+         .participants = true,
+         .x_label = "difference (g)",
+         .y_label = "% of trials",
+         .axes = "set yrange [0:100]\n",
+         .bands = true},
+        {.name = "hits_and_false_alarms",
+         .title = "Hits against false alarms",
+         .caption = "Each participant's percentage of \"different\" in comparisons with a "
+                    "difference, against those without. On the line a participant says "
+                    "\"different\" whatever is shown.",
+         .csv = "hits_and_false_alarms.csv",
+         .shape = ChartShape::scatter,
+         .importance = 70,
+         .series = {{&alarms}, {&hits}},
+         .split = {"condition"},
+         .diagonal = true,
+         .x_label = "% \"different\" without a difference",
+         .y_label = "% \"different\" with one",
+         .axes = "set xrange [-3:103]\nset yrange [-3:103]\n"},
+        {.name = "times_by_level",
+         .title = "Response time by difference",
+         .caption =
+             "From all cubes shown to the answer, without pauses and time out of view: median "
+             "and quartiles of comparisons, by reference and condition.",
+         .csv = "times_by_level.csv",
+         .shape = ChartShape::lines,
+         .importance = 80,
+         .series = {{&time_by_level}},
+         .x = "mean_level_g",
+         .split = {"reference_g", "condition"},
+         .x_label = "difference (g)",
+         .y_label = "response time (s)",
+         .axes = "set yrange [0:*]\n"}};
   }
 };
 }  // namespace

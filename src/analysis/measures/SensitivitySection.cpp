@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "analysis/measures/Sensitivity.h"
 #include "analysis/measures/Section.h"
+#include "analysis/measures/Sensitivity.h"
 #include "analysis/report/Notes.h"
 
 namespace heft {
@@ -146,8 +146,7 @@ EstimateTable sensitivity_table() {
        json_column(sensitivity, Field::low, "sensitivity_low_per_g"),
        json_column(sensitivity, Field::high, "sensitivity_high_per_g"),
        column(lapse, Field::value, "lapse_rate", "lapse rate", 3),
-       column(lapse, Field::low, "lapse_rate_low"),
-       column(lapse, Field::high, "lapse_rate_high"),
+       column(lapse, Field::low, "lapse_rate_low"), column(lapse, Field::high, "lapse_rate_high"),
        column(sensitivity_sd, Field::value, "sd_log_sensitivity", "", 2),
        json_column(threshold, Field::n_trials, "n_trials"),
        json_column(threshold, Field::identifiable, "identifiable"),
@@ -182,8 +181,9 @@ EstimateTable threshold_table() {
        column(threshold, Field::high, "high_g", "high"),
        column(participant_jnd, Field::value, "jnd_g", "", 1, "-"),
        column(participant_jnd, Field::censored, "censored", "", 1, "-")},
-      "the 75 %-correct threshold by this person's trials alone; the paper's JND of "
-      "the staircases that began high and low beside, each with its start",
+      "the 75 %-correct threshold by this person's trials, with the lapse rate and the spread of "
+      "criteria of all; the paper's JND of the staircases that began high and low beside, each "
+      "with its start",
       TablePlace::report,
       "thresholds[]"};
   for (const auto& [side, name] : {std::pair("from above", "above"), {"from below", "below"}}) {
@@ -205,9 +205,13 @@ EstimateTable threshold_table() {
 
 class SensitivitySection final : public Section {
  public:
+  void add(const SessionData& data) override { runs_.add(data); }
   void put(Summary& summary) override {
-    sensitivity_ = sensitivities_of(summary.shared->comparisons);
+    const ComparisonTrials& trials = summary.shared->comparisons;
+    sensitivity_ = sensitivities_of(trials);
     put_sensitivities(summary.estimates, sensitivity_);
+    put_model_fit(summary.estimates, sensitivity_, trials, runs_);
+    runs_ = {};
   }
 
   Estimates of_participants(const Summary& summary) const override {
@@ -252,12 +256,15 @@ class SensitivitySection final : public Section {
     if (!thresholds.empty() && found.empty())
       found.emplace_back(
           "75 %-correct discrimination threshold: not identifiable from these trials.");
+    if (std::string fit = model_fit_finding(summary.estimates); !fit.empty())
+      found.push_back(std::move(fit));
     return found;
   }
 
   std::vector<EstimateTable> tables() const override {
-    return {sensitivity_table(), lapse_table(), threshold_ratio_table(),
-            threshold_exponent_table(), threshold_table()};
+    return {sensitivity_table(),        lapse_table(),     threshold_ratio_table(),
+            threshold_exponent_table(), model_fit_table(), predictive_checks_table(),
+            threshold_table()};
   }
 
   std::vector<ChartSpec> charts() const override {
@@ -312,6 +319,7 @@ class SensitivitySection final : public Section {
   }
 
  private:
+  StaircaseRuns runs_;
   std::vector<ReferenceSensitivity> sensitivity_;
 };
 }  // namespace

@@ -1,0 +1,153 @@
+// Whether the indecision model predicts what was seen, along the staircases that people ran.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "analysis/measures/Sensitivity.h"
+#include "analysis/report/Notes.h"
+
+namespace heft {
+
+namespace {
+constexpr Measure predictive_p{
+    "predictive_p", "", "p",
+    "share of studies predicted by the indecision model in which a figure is as far from its mean, "
+    "in SDs, as the farthest one that was seen"};
+constexpr Measure seen{"seen_figure", "", "seen", "a figure of the study"};
+constexpr Measure predicted{
+    "predicted_figure", "", "predicted",
+    "the same figure in studies predicted by the indecision model: mean and middle 95 %"};
+constexpr Measure heavier{
+    "predicted_heavier", "%", "the heavier cube",
+    "share of comparisons in a bin of differences in which the heavier cube is chosen by the "
+    "indecision model"};
+constexpr Measure lighter{
+    "predicted_lighter", "%", "the lighter cube",
+    "share of comparisons in a bin of differences in which the lighter cube is chosen by the "
+    "indecision model"};
+constexpr Measure none{"predicted_none", "%", "no difference",
+                       "share of comparisons in a bin of differences answered \"no difference\" by "
+                       "the indecision model"};
+
+using Bins = std::vector<ComparedTrials>;
+
+// Halfway from one bin to the next.
+std::vector<double> edges_between(const Bins& bins) {
+  std::vector<double> edges_g;
+  for (std::size_t i = 1; i < bins.size(); ++i)
+    edges_g.push_back((bins[i - 1].back()->level_g + bins[i].front()->level_g) / 2);
+  return edges_g;
+}
+
+StudyEstimate estimate_at(const Measure& measure, const ReferenceSensitivity& row) {
+  StudyEstimate estimate{&measure, "comparison", row.compared.condition};
+  estimate.reference_g = row.compared.reference_g;
+  estimate.n = row.fit.n;
+  estimate.n_trials = static_cast<int>(row.fit.n_trials);
+  estimate.method = "studies simulated with the fitted mixed indecision model";
+  return estimate;
+}
+
+void put_bands(Estimates& all, const ReferenceSensitivity& row, const Bins& bins,
+               const PredictiveCheck& check) {
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    const PredictedShares& shares = check.by_level[i];
+    for (const auto& [measure, band] :
+         {std::pair(&heavier, shares.heavier), {&lighter, shares.lighter}, {&none, shares.none}}) {
+      const bool is_half_right = measure != &none && bins[i].front()->level_g == 0;
+      if (!band || is_half_right) continue;
+      StudyEstimate& one = all.emplace_back(estimate_at(*measure, row));
+      one.by = {at("mean_level_g", mean_level_g(bins[i]))};
+      one.value = 100 * band->mean;
+      one.set(Interval{100 * band->low, 100 * band->high});
+    }
+  }
+}
+
+void put_figures(Estimates& all, const ReferenceSensitivity& row, const PredictiveCheck& check) {
+  for (const PredictedFigure& figure : check.figures) {
+    StudyEstimate& is = all.emplace_back(estimate_at(seen, row));
+    is.by = {{"figure", figure.name}};
+    is.value = figure.seen;
+    StudyEstimate& model = all.emplace_back(estimate_at(predicted, row));
+    model.by = {{"figure", figure.name}};
+    model.value = figure.mean;
+    model.set(Interval{figure.low, figure.high});
+  }
+  StudyEstimate& p = all.emplace_back(estimate_at(predictive_p, row));
+  p.by = {{"figure", check.farthest().name}};
+  p.value = check.p;
+}
+}  // namespace
+
+void put_model_fit(Estimates& all, std::span<const ReferenceSensitivity> rows,
+                   const ComparisonTrials& trials, const StaircaseRuns& runs) {
+  for (const ReferenceSensitivity& row : rows) {
+    const std::vector<PersonRuns> people = runs.at(row.compared);
+    if (!row.fit.identifiable() || row.fit.n < least_people || people.empty()) continue;
+    const Bins bins = binned(pointers_to(trials.by_compared().at(row.compared)));
+    const PredictiveCheck check = check_predictions(row.fit, people, edges_between(bins));
+    if (check.figures.empty()) continue;
+    put_bands(all, row, bins, check);
+    put_figures(all, row, check);
+  }
+}
+
+EstimateTable model_fit_table() {
+  return {
+      "model_fit",
+      "Does the indecision model predict what was seen?",
+      {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+       column(predictive_p, Field::value, "p", "p", 3),
+       key_column("figure", "farthest from what is predicted"),
+       column(seen, Field::value, "seen", "seen", 2),
+       column(predicted, Field::low, "predicted_low", "predicted from", 2),
+       column(predicted, Field::high, "predicted_high", "to", 2)},
+      "people drawn from the fitted model run each participant's staircases from the first trial "
+      "on, in 500 studies (fewer with more than 200 people). p: the share of these studies in "
+      "which a figure is as far from its mean, in SDs, as the farthest one here. Below .05, "
+      "divided by the number of rows, the model does not hold. All figures: predictive_checks."};
+}
+
+EstimateTable predictive_checks_table() {
+  return {"predictive_checks",
+          "Figures of the study beside those that the indecision model predicts",
+          {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+           key_column("figure", "figure"), column(seen, Field::value, "seen", "seen", 3),
+           column(predicted, Field::value, "predicted", "predicted", 3),
+           column(predicted, Field::low, "low", "95 % from", 3),
+           column(predicted, Field::high, "high", "to", 3)},
+          "",
+          TablePlace::csv};
+}
+
+std::string model_fit_finding(const Estimates& all) {
+  const auto checks = estimates_of(all, predictive_p.name);
+  if (checks.empty()) return "";
+  const auto n = static_cast<double>(checks.size());
+  std::vector<std::string> missed;
+  double least_p = 1;
+  for (const StudyEstimate* check : checks) {
+    least_p = std::min(least_p, *check->value);
+    if (*check->value * n >= 0.05) continue;
+    const std::string reference = check->text_at("reference_g");
+    const auto at_figure = [&](const Measure& measure) {
+      return find_estimate(all, measure.name,
+                           {{"reference_g", reference},
+                            {"condition", check->condition},
+                            {"figure", check->at("figure")->text}});
+    };
+    const StudyEstimate& model = *at_figure(predicted);
+    missed.push_back(fmt::format("{} at {} g in {} is {:.3g}, predicted {:.3g} to {:.3g}",
+                                 check->at("figure")->text, reference, check->condition,
+                                 *at_figure(seen)->value, *model.low, *model.high));
+  }
+  if (missed.empty())
+    return fmt::format(
+        "The indecision model predicts what was seen (predictive checks, smallest p = {:.2f}).",
+        least_p);
+  return fmt::format("The indecision model does not predict what was seen: {}. Doubt thresholds.",
+                     some_of(missed, 3));
+}
+
+}  // namespace heft

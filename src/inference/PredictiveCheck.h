@@ -1,0 +1,76 @@
+// Does the mixed indecision model predict a study? People who are drawn from the fitted population
+// run the same procedures, from the first trial on: the levels of a staircase depend on its
+// answers, so that answers at the levels that were shown would not be what the model predicts. What
+// such studies come out as stands beside what was seen (posterior predictive checks, with the
+// estimate in place of a posterior: Gelman, Meng & Stern 1996).
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "inference/MixedIndecision.h"
+#include "psychophysics/Procedure.h"
+
+namespace heft {
+
+/// A choice at a level in g, comparison minus reference.
+struct MadeChoice {
+  double level_g = 0;
+  Choice choice = Choice::none;
+
+  bool heavier() const {
+    return level_g != 0 && choice == (level_g > 0 ? Choice::comparison : Choice::reference);
+  }
+  bool lighter() const {
+    return level_g != 0 && choice == (level_g > 0 ? Choice::reference : Choice::comparison);
+  }
+};
+
+/// A staircase as one person ran it.
+struct StaircaseRun {
+  std::shared_ptr<const Procedure> before;  ///< as it was before its first trial
+  bool correct_choices = false;             ///< only these are positive; otherwise any choice is
+  std::vector<MadeChoice> choices{};        ///< in order
+};
+
+/// What one person did at one reference in one condition.
+struct PersonRuns {
+  std::vector<StaircaseRun> staircases;
+  int n_catch = 0, n_catch_none = 0;  ///< catch trials, and those answered "no difference"
+};
+
+/// A figure of the study, and the same figure of the studies that the model predicts.
+struct PredictedFigure {
+  std::string name;
+  double seen = 0;
+  double mean = 0, sd = 0, low = 0, high = 0;  ///< of predicted studies; 95 % of them
+  /// In SDs from what is predicted.
+  double deviation() const { return (seen - mean) / sd; }
+};
+
+/// Shares of choices between two levels; none where no trial was there.
+struct PredictedShares {
+  struct Band {
+    double mean = 0, low = 0, high = 0;
+  };
+  std::optional<Band> heavier, lighter, none;
+};
+
+struct PredictiveCheck {
+  std::vector<PredictedFigure> figures;
+  std::vector<PredictedShares> by_level;  ///< between one edge and the next
+  /// The share of predicted studies that have a figure as many SDs from what is predicted as the
+  /// one that is farthest in the study seen.
+  double p = 1;
+
+  const PredictedFigure& farthest() const;  ///< of at least one figure
+};
+
+/// @param fit identifiable, of several people
+/// @param edges_g upper ends of ranges of levels, ascending; the last range is open
+PredictiveCheck check_predictions(const MixedFit& fit, std::span<const PersonRuns> people,
+                                  std::span<const double> edges_g, std::uint64_t seed = 1);
+
+}  // namespace heft

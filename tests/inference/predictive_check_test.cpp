@@ -1,0 +1,147 @@
+// Predictive checks: a study that follows the model passes, one that does not is told so.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "inference/Coverage.h"
+#include "inference/PredictiveCheck.h"
+#include "psychophysics/UpDown.h"
+
+namespace heft {
+namespace {
+
+enum class Truth { model, drift };
+
+MixedFit fit_of_truth() {
+  MixedFit fit;
+  fit.n = 40;
+  fit.sensitivity = MixedFigure{0.6745 / 150};
+  fit.threshold_75_g = MixedFigure{150};
+  fit.indecision = MixedFigure{1};
+  fit.lapse = MixedFigure{0.02};
+  fit.sd_log_sensitivity = fit.sd_log_indecision = 0.3;
+  fit.correlation = 0;
+  fit.sd_bias = 0.2;
+  return fit;
+}
+
+StaircaseRun staircase(double start_g) {
+  UpDownConfig config;
+  config.start = start_g;
+  config.step = 60;
+  config.halve_every = 2;
+  config.floor = 0;
+  config.ceiling = 800;
+  config.stop_reversals = 8;
+  config.stop_trials = 60;
+  return {std::make_shared<const Procedure>("s", config)};
+}
+
+// 12 catch trials each, and staircases from above and below.
+std::vector<PersonRuns> study(Truth truth, int n_people, std::uint64_t seed) {
+  RandomStream stream(seed, "predictive checks");
+  std::vector<PersonRuns> people;
+  for (int i = 0; i < n_people; ++i) {
+    const double s = 0.6745 / 150 * std::exp(0.3 * stream.normal());
+    const double tau = std::exp(0.3 * stream.normal()), bias = 0.2 * stream.normal();
+    PersonRuns person{{staircase(500), staircase(60)}, 12, 0};
+    const auto choose = [&](double level_g, double part) {
+      const double grown = truth == Truth::drift ? tau * std::exp(2 * part - 1) : tau;
+      const IndecisionShares shares =
+          indecision_shares({s, grown, stream.coin(0.5) ? bias : -bias, 0.02}, level_g);
+      const double u = stream.uniform();
+      return u < shares.reference                 ? Choice::reference
+             : u < shares.reference + shares.none ? Choice::none
+                                                  : Choice::comparison;
+    };
+    for (StaircaseRun& run : person.staircases)
+      for (Procedure procedure = *run.before; !procedure.finished();) {
+        const double level_g = procedure.next_level(stream);
+        const Choice choice = choose(level_g, std::min(1.0, procedure.n_trials() / 25.0));
+        procedure.respond(response_of(choice), level_g);
+        run.choices.push_back({level_g, choice});
+      }
+    for (int k = 0; k < person.n_catch; ++k)
+      person.n_catch_none += choose(0, k / 12.0) == Choice::none ? 1 : 0;
+    people.push_back(person);
+  }
+  return people;
+}
+
+// Answers as heft analyse takes them from a log; sides are equally likely.
+MixedFit fitted(const std::vector<PersonRuns>& people) {
+  AnswersByPerson answers;
+  RandomStream stream(5, "sides");
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    AnswersByLevel& own = answers[std::to_string(100 + i)];
+    for (const StaircaseRun& run : people[i].staircases)
+      for (const MadeChoice& made : run.choices) {
+        const double side = stream.coin(0.5) ? 1 : -1;
+        const std::size_t up = made.choice == Choice::comparison ? 2 : 0;
+        own[side * made.level_g][made.choice == Choice::none ? 1 : side > 0 ? up : 2 - up] += 1;
+      }
+    const int n_chosen = people[i].n_catch - people[i].n_catch_none;
+    own[0][1] += people[i].n_catch_none;
+    own[0][0] += n_chosen / 2;
+    own[0][2] += n_chosen - n_chosen / 2;
+  }
+  return fit_mixed_indecision(answers);
+}
+
+const std::vector<double> edges_g{40, 90, 150, 220, 320};
+
+TEST(PredictiveCheck, OfTheModelItselfHasUniformP) {
+  const int studies = n_studies(40);
+  int n_below_05 = 0, n_below_half = 0;
+  for (int i = 0; i < studies; ++i) {
+    const double p = check_predictions(fit_of_truth(), study(Truth::model, 12, 100 + i), edges_g).p;
+    EXPECT_GT(p, 0);
+    n_below_05 += p < 0.05 ? 1 : 0;
+    n_below_half += p < 0.5 ? 1 : 0;
+  }
+  EXPECT_LE(n_below_05, 0.05 * studies + 3 * std::sqrt(0.05 * studies));
+  EXPECT_NEAR(n_below_half, 0.5 * studies, 3 * std::sqrt(0.25 * studies));
+}
+
+TEST(PredictiveCheck, TellsAModelThatHoldsFromOthers) {
+  const int studies = n_studies(6);
+  for (const auto& [truth, name, least, most] :
+       {std::tuple{Truth::model, "the model", 0.0, 0.05},
+        {Truth::drift, "a criterion that grows sevenfold", 0.8, 1.0}}) {
+    int n_told = 0;
+    for (int i = 0; i < studies; ++i) {
+      const auto people = study(truth, 40, 500 + static_cast<std::uint64_t>(i));
+      const MixedFit fit = fitted(people);
+      ASSERT_TRUE(fit.identifiable()) << fit.why;
+      const PredictiveCheck check = check_predictions(fit, people, edges_g);
+      n_told += check.p < 0.05 ? 1 : 0;
+      std::cout << name << ": p " << check.p << ", " << check.farthest().name << " "
+                << check.farthest().deviation() << " SD\n";
+    }
+    std::cout << name << ": " << 100.0 * n_told / studies << " % told\n";
+    const double chance = 3 * std::sqrt(0.05 * 0.95 / studies);
+    EXPECT_GE(n_told, (least - chance) * studies) << name;
+    EXPECT_LE(n_told, (most + chance) * studies) << name;
+  }
+}
+
+TEST(PredictiveCheck, RunsStaircasesThatDidNotEndAsLong) {
+  auto people = study(Truth::model, 6, 9);
+  for (PersonRuns& person : people)
+    for (StaircaseRun& run : person.staircases) run.choices.resize(5);
+  const PredictiveCheck check = check_predictions(fit_of_truth(), people, edges_g);
+  for (const PredictedFigure& figure : check.figures) EXPECT_NE(figure.name, "number of trials");
+}
+
+TEST(PredictiveCheck, IsTheSameForTheSameSeed) {
+  const auto people = study(Truth::model, 6, 9);
+  const auto p = [&](std::uint64_t seed) {
+    return check_predictions(fit_of_truth(), people, edges_g, seed).figures.at(0).mean;
+  };
+  EXPECT_EQ(p(1), p(1));
+  EXPECT_NE(p(1), p(2));
+}
+
+}  // namespace
+}  // namespace heft
