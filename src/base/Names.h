@@ -76,7 +76,7 @@ struct NamedKinds {
   /// The default value of the kind of that name, which must be one of `names`.
   static Any defaults(std::string_view name) {
     Any any;
-    ((name == Kind::kind ? void(any = Kind{}) : void()), ...);
+    ((name == Kind::kind ? void(any.template emplace<Kind>()) : void()), ...);
     return any;
   }
 

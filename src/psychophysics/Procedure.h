@@ -21,7 +21,9 @@ namespace heft {
 /// configuration and the responses only, so that a response is withdrawn by replaying the others.
 /// Optional members:
 ///   std::optional<int> planned_trials() const;       number of trials, if known in advance
+///   int most_trials() const;                         of a Bayesian kind, which is slow to simulate
 ///   std::vector<double> planned_levels() const;      levels known before the first response
+///   std::vector<ParameterPosterior> posterior() const;   of a Bayesian kind's parameters
 template <typename Kind>
 concept ProcedureKind = std::copyable<Kind> &&
     requires(Kind& kind, const Kind& fixed, const RandomStream& stream, const Response& response,
@@ -77,8 +79,13 @@ class Procedure {
   int n_trials() const { return n_trials_; }
   /// Total number of trials; none if it depends on the responses.
   std::optional<int> planned_trials() const { return kind_->planned_trials(); }
+  /// Number of trials that ends a Bayesian kind in any case; none for other kinds.
+  std::optional<int> most_trials() const { return kind_->most_trials(); }
   /// Levels known before the first response: all of a fixed kind, the first of an adaptive one.
   std::vector<double> planned_levels() const { return kind_->planned_levels(); }
+
+  /// Of the parameters of a Bayesian kind, at any time; empty for the others.
+  std::vector<ParameterPosterior> posterior() const { return kind_->posterior(); }
 
   /// The procedure as a `Kind`; null if it is of another kind.
   template <ProcedureKind Kind>
@@ -96,7 +103,9 @@ class Procedure {
     virtual std::optional<StopReason> finish() const = 0;
     virtual std::vector<Estimate> estimates() const = 0;
     virtual std::optional<int> planned_trials() const = 0;
+    virtual std::optional<int> most_trials() const = 0;
     virtual std::vector<double> planned_levels() const = 0;
+    virtual std::vector<ParameterPosterior> posterior() const = 0;
   };
 
   template <typename Kind>
@@ -113,8 +122,16 @@ class Procedure {
       if constexpr (requires { kind.planned_trials(); }) return kind.planned_trials();
       return std::nullopt;
     }
+    std::optional<int> most_trials() const override {
+      if constexpr (requires { kind.most_trials(); }) return kind.most_trials();
+      return std::nullopt;
+    }
     std::vector<double> planned_levels() const override {
       if constexpr (requires { kind.planned_levels(); }) return kind.planned_levels();
+      return {};
+    }
+    std::vector<ParameterPosterior> posterior() const override {
+      if constexpr (requires { kind.posterior(); }) return kind.posterior();
       return {};
     }
 

@@ -6,7 +6,9 @@
 
 #include "base/Names.h"
 #include "psychophysics/Constant.h"
+#include "psychophysics/LeastEntropy.h"
 #include "psychophysics/Procedure.h"
+#include "psychophysics/Quest.h"
 #include "psychophysics/UpDown.h"
 
 namespace heft {
@@ -35,6 +37,16 @@ struct KindsOfProcedure : NamedKinds<KindConfig...> {
     return text;
   }
 
+  /// Whether a method of estimation is that of a Bayesian kind, which is named after it.
+  static bool is_bayesian(std::string_view method) {
+    const auto is_method = [&]<typename Config>() {
+      if constexpr (requires(const typename Config::Procedure& kind) { kind.posterior(); })
+        return method == Config::kind;
+      return false;
+    };
+    return (is_method.template operator()<KindConfig>() || ...);
+  }
+
   /// Whether it estimates a level. Kinds that do not declare `estimates_nothing`.
   static bool estimates_level(const Procedure& procedure) {
     const auto is_without = [&]<typename Config>() {
@@ -47,6 +59,7 @@ struct KindsOfProcedure : NamedKinds<KindConfig...> {
 };
 
 /// The first is the default of files.
-using ProcedureKinds = KindsOfProcedure<UpDownConfig, ConstantConfig>;
+using ProcedureKinds =
+    KindsOfProcedure<UpDownConfig, ConstantConfig, QuestConfig, QuestPlusConfig, PsiConfig>;
 
 }  // namespace heft

@@ -52,7 +52,8 @@ struct Update {
 
 /// Whether an estimate is censored. above (below): the ceiling (floor) shortened moves that the
 /// estimate depends on, so that the true value may be beyond the bound; indeterminate: both bounds
-/// did, or the trials ended before the reversals.
+/// did, or the trials ended before the reversals. Bayesian kinds: the posterior reaches the upper
+/// (lower) end of the grid; indeterminate: both ends, or the responses do not depend on the level.
 enum class Censored { none, above, below, indeterminate };
 template <>
 struct EnumNames<Censored> {
@@ -67,6 +68,14 @@ struct Estimate {
   int n_trials = 0, n_reversals = 0;
   int n_floor = 0, n_ceiling = 0;  ///< moves that a bound shortened
   Censored censored = Censored::none;
+  std::optional<double> sd{};  ///< of the posterior, in Bayesian kinds
+};
+
+/// A parameter's posterior distribution. `mode` belongs to the most probable point of the whole
+/// grid; low and high are the ends of the central 95 % interval.
+struct ParameterPosterior {
+  std::string name;
+  double mean = 0, sd = 0, mode = 0, low = 0, high = 0;
 };
 
 }  // namespace heft

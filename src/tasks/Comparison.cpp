@@ -58,6 +58,7 @@ int simulated_trials(Procedure procedure, double threshold_g, std::uint64_t obse
 
 double mean_trials(const Procedure& procedure, double largest_threshold_g) {
   if (const auto planned = procedure.planned_trials()) return *planned;
+  if (const auto most = procedure.most_trials()) return *most;
   constexpr int n_observers = 200;
   double total = 0;
   for (int i = 0; i < n_observers; ++i) {

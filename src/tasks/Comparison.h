@@ -93,7 +93,8 @@ struct Comparison {
     }
     ConfigMistakes check() const;
     std::vector<std::pair<std::string, std::string>> choices() const;
-    /// Without catch trials. Staircases whose length depends on the answers are simulated.
+    /// Without catch trials. Staircases whose length depends on the answers are
+    /// simulated; of Bayesian kinds it is the largest.
     double expected_staircase_trials() const;
     double expected_trials() const;
     bool depends_on_answers() const;

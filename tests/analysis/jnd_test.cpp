@@ -279,6 +279,33 @@ TEST(Jnd, EstimatesOfAnyProcedureAreThereWithTheirIntervals) {
   EXPECT_EQ(staircase_results({&data, 1})[1].censored, Censored::above);
 }
 
+TEST(Jnd, OfABayesianKindIsBoundedByItsIntervalOrNotIdentifiable) {
+  SessionData data = session(1, "a");
+  add_staircase(data, "s", 200, 80, 40);
+  EstimateRow& row = data.estimates[0];
+  row.method = "psi";
+  row.reason = StopReason::trials;
+  row.jnd_g.reset();
+  row.censored = Censored::indeterminate;
+  StaircaseResult result = staircase_results({&data, 1}).at(0);
+  EXPECT_EQ(result.why, "not identifiable");
+  EXPECT_FALSE(result.shown_g);
+  row.censored = Censored::above;
+  row.low_g = 350;
+  result = staircase_results({&data, 1}).at(0);
+  EXPECT_EQ(result.why, "beyond the largest threshold of the grid");
+  EXPECT_EQ(result.shown_g, 350);
+  row.censored = Censored::below;
+  row.low_g.reset();
+  row.high_g = 20;
+  EXPECT_EQ(staircase_results({&data, 1}).at(0).shown_g, 20);
+  row.jnd_g = 15;
+  row.censored = Censored::none;
+  result = staircase_results({&data, 1}).at(0);
+  EXPECT_EQ(result.why, "");
+  EXPECT_EQ(result.shown_g, 15);
+}
+
 TEST(Jnd, AProtocolTellsWhichStaircasesHaveNone) {
   const std::string block = "title = \"t\"\n[[block]]\nkind = \"comparison\"\nname = \"c\"\n";
   const std::string up_down =

@@ -76,18 +76,61 @@ n_per_level = 1
 order = "shuffled"
 """
 
+QUEST = COMPARISON.format(name="quest", technique="soft") + """
+[[block.staircase]]
+name = "quest 100g"
+reference_g = 100
+kind = "quest"
+guess = 200
+guess_sd = 100
+beta = 0.02
+grain = 1
+floor = 0
+stop_trials = 1
+"""
+
+QUEST_PLUS = COMPARISON.format(name="quest+", technique="soft") + """
+[[block.staircase]]
+name = "quest+ 100g"
+reference_g = 100
+kind = "quest_plus"
+function = "weibull"
+levels = [100, 400]
+threshold = { from = 50, to = 500, n = 5, spacing = "log" }
+slope = 3
+guess = 0.02
+lapse = [0.02, 0.1]
+stop_trials = 1
+"""
+
+PSI = COMPARISON.format(name="psi", technique="soft") + """
+[[block.staircase]]
+name = "psi 100g"
+reference_g = 100
+kind = "psi"
+function = "indecision"
+levels = [100, 400]
+sensitivity = [0.01, 0.02]
+indecision = { from = 0, to = 2, step = 1 }
+bias = 0
+lapse = 0.02
+nuisance = ["indecision"]
+stop_trials = 1
+"""
+
 
 def protocol(*blocks, display_rate_hz=15, contact=True):
     return (f'title = "Combinations"\ndisplay_rate_hz = {display_rate_hz}\n'
             f'require_contact = {str(contact).lower()}\n' + TECHNIQUE + "".join(blocks))
 
 
-# One trial, two, and one of everything with every technique: three sorting trials, then four
+# One trial, two, and one of everything with every technique: three sorting trials, then seven
 # comparisons, with a questionnaire between the two.
 ONE = protocol(PAIRS, contact=False)
 TWO = protocol(PAIRS, FOURS, contact=False)
-ALL = protocol(ASKED, PAIRS, FOURS, UP_DOWN, CONSTANT, contact=False)
-N_SORTING, N_ALL = 3, 7
+ALL = protocol(ASKED, PAIRS, FOURS, UP_DOWN, CONSTANT, QUEST, QUEST_PLUS, PSI,
+               contact=False)
+N_SORTING, N_ALL = 3, 10
 
 
 def write_recording(folder, n_trials):

@@ -8,6 +8,7 @@
 
 #include "engine/Engine.h"
 #include "experiment/Rows.h"
+#include "psychophysics/BayesianKinds.h"
 #include "psychophysics/Bisection.h"
 #include "psychophysics/ProcedureKinds.h"
 #include "tasks/Comparison.h"
@@ -35,7 +36,7 @@ std::string text_of(const Row& row) {
 
 Procedure any_procedure(const std::string& name) {
   const auto quarter = [](int from, int to) { return *rc::gen::inRange(from, to) / 4.0; };
-  switch (*rc::gen::inRange(0, 3)) {
+  switch (*rc::gen::inRange(0, 5)) {
     case 0: {
       UpDownConfig config{.start = quarter(1, 2400), .step = quarter(1, 600), .halve_every = 2};
       config.floor = 0;
@@ -48,6 +49,19 @@ Procedure any_procedure(const std::string& name) {
     case 1:
       return {name, ConstantConfig{.levels = {-5, 0, quarter(1, 400)},
                                    .n_per_level = *rc::gen::inRange(1, 5)}};
+    case 2: {
+      QuestConfig config{.guess = quarter(4, 800), .guess_sd = 80, .beta = 0.02, .grain = 1};
+      config.floor = 0;
+      config.stop_trials = *rc::gen::inRange(1, 30);
+      return {name, config};
+    }
+    case 3: {
+      PsiConfig config = test::heavier_at_200g(*rc::gen::inRange(1, 20));
+      for (double& level : config.levels.values) level /= 18;  // from -10 g, for 15 g too
+      config.nuisance.resize(static_cast<std::size_t>(*rc::gen::inRange(0, 3)));
+      if (*rc::gen::arbitrary<bool>()) config.stop_ci_width = 60;
+      return {name, config};
+    }
     default:
       return {name, test::Bisection(0, quarter(40, 2000), 5)};
   }

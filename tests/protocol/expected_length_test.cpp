@@ -54,6 +54,18 @@ TEST(ExpectedLength, IsLimitedForAnEndlessStaircase) {
   EXPECT_LE(total_of(expected_trials(protocol)), 1000);
 }
 
+TEST(ExpectedLength, IsTheLargestOfABayesianKind) {
+  Comparison::Block block;
+  QuestConfig quest{.guess = 100, .guess_sd = 80, .beta = 0.02, .grain = 1};
+  quest.stop_trials = 70;
+  quest.stop_ci_width = 40;
+  block.staircases = {{200, {"quest", quest}, {}}};
+  Protocol protocol;
+  protocol.blocks = {block};
+  EXPECT_EQ(total_of(expected_trials(protocol)), 70);
+  EXPECT_TRUE(depends_on_answers(protocol));
+}
+
 TEST(ExpectedLength, CountsTheTrialsOfConstantStimuli) {
   Comparison::Block block;
   block.staircases = {{15, {"constant", ConstantConfig{.levels = {10, 20, 40}, .n_per_level = 12}}},

@@ -159,7 +159,7 @@ const std::vector<Broken> broken_procedures{
      {"halve_every together with steps"}},
     {"min_step_above_step", {"min_step = 5", "min_step = ^51"}, {"at most the step 50"}},
     {"negative_halving", {"halve_every = 2", "halve_every = ^-2"}, {"at least 0"}},
-    {"unknown_kind", {"\"up_down\"", "^\"quest\""}, {"kind is \"quest\"", "\"up_down\""}},
+    {"unknown_kind", {"\"up_down\"", "^\"up_dwon\""}, {"kind is \"up_dwon\"", "\"up_down\""}},
     {"unknown_scale",
      {"\"db\"", "^\"dB\""},
      {"\"linear\", \"db\" or \"log10\"", "did you mean \"db\""}},
@@ -252,7 +252,7 @@ const std::vector<Broken> broken_constants{
      {"lacks \"n_per_level\""}},
     {"unknown_order", {"\"shuffled\"", "^\"shuffle\""}, {"did you mean \"shuffled\""}},
     {"misspelled_kind", {"\"constant\"", "^\"constnat\""}, {"did you mean \"constant\""}},
-    {"kind_unlike_any", {"\"constant\"", "^\"zzz\""}, {"\"up_down\" or \"constant\""}},
+    {"kind_unlike_any", {"\"constant\"", "^\"zzz\""}, {"\"up_down\", \"constant\""}},
     {"key_of_another_kind", {"n_per_level = 4", "n_per_level = 4\n^step = 5"}, {"step"}},
     {"same_name", {"\"b\"", "^\"a\""}, {"another staircase", "line 2"}},
 };

@@ -67,6 +67,19 @@ Censored direction_of(const EstimateRow& row, const Course& course) {
   return last_g > first_g ? Censored::above : Censored::below;
 }
 
+// From a posterior distribution: a missing JND is not identifiable, and of a censored one an end of
+// the interval is known.
+void judge_posterior(StaircaseResult& result) {
+  if (result.censored == Censored::none) {
+    result.shown_g = result.jnd_g;
+  } else {
+    result.why = result.censored == Censored::above   ? "beyond the largest threshold of the grid"
+                 : result.censored == Censored::below ? "below the smallest threshold of the grid"
+                                                      : "not identifiable";
+    result.shown_g = result.censored == Censored::above ? result.low_g : result.high_g;
+  }
+}
+
 std::string why_censored(const EstimateRow& row, Censored censored) {
   if (censored == Censored::above) return "at the ceiling";
   if (censored == Censored::below) return "at the floor";
@@ -79,6 +92,7 @@ std::string why_censored(const EstimateRow& row, Censored censored) {
 void judge(StaircaseResult& result, const EstimateRow& row, const Course& course) {
   result.start_g = course.levels_g.empty() ? 0 : course.levels_g.front();
   result.censored = row.censored.value_or(Censored::none);
+  if (ProcedureKinds::is_bayesian(row.method)) return judge_posterior(result);
   result.why = why_censored(row, result.censored);
   if (result.why.empty()) {
     result.shown_g = result.jnd_g;

@@ -65,7 +65,7 @@ void NotesFold::add(const SessionData& data) {
   n_sessions_[data.participant()] += 1;
   protocols_[header.protocol_sha256] = header.protocol_name;
   for (const EstimateRow& row : data.estimates)
-    if (row.method != jnd_method) methods_.insert(row.method);
+    if (row.jnd_g) methods_.insert(row.method);
   if (std::ranges::any_of(data.setups,
                           [](const auto& s) { return s.setup.tracker.name == "mouse"; }))
     dragged_.push_back(fmt::format("{} ({})", data.session.session_id, header.participant));
@@ -95,8 +95,8 @@ std::string NotesFold::protocols_note() const {
 }
 
 std::string NotesFold::other_methods_note() const {
-  if (methods_.empty()) return "";
-  return fmt::format("JNDs are by the method {}; the log also has estimates by {}.", jnd_method,
+  if (methods_.size() < 2) return "";
+  return fmt::format("JNDs are by several methods, in separate rows: {}.",
                      fmt::join(methods_, ", "));
 }
 

@@ -57,6 +57,17 @@ void RangeCheck::operator()(const ConfigKey& key, const std::vector<double>& val
   }
 }
 
+void RangeCheck::operator()(const ConfigKey& key, const ValueGrid& grid, const Range& range) {
+  (*this)(key, grid.values, range);
+  for (std::size_t i = 1; i < grid.values.size(); ++i)
+    if (grid.values[i] <= grid.values[i - 1])
+      mistakes.push_back(
+          {{key.name},
+           fmt::format("{} has {} after {}", key.name, grid.values[i], grid.values[i - 1]),
+           "ascending values",
+           i});
+}
+
 void RangeCheck::operator()(const ConfigKey& key, int value, const WholeRange& range) {
   if (value < range.low || value > range.high)
     mistakes.push_back({{key.name}, fmt::format("{} is {}", key.name, value), range.text()});
@@ -76,6 +87,15 @@ std::string KeysReport::text_of(const std::optional<double>& value) {
 }
 std::string KeysReport::text_of(const std::vector<double>& values) {
   return fmt::format("{:g}", fmt::join(values, ", "));
+}
+std::string KeysReport::text_of(const std::vector<std::string>& values) {
+  return values.empty() ? "none" : fmt::format("{}", fmt::join(values, ", "));
+}
+std::string KeysReport::text_of(const ValueGrid& grid) {
+  const std::vector<double>& values = grid.values;
+  if (values.empty()) return "none";
+  if (values.size() < 4) return text_of(values);
+  return fmt::format("{:g} to {:g} ({} values)", values.front(), values.back(), values.size());
 }
 
 void KeysReport::add(const ConfigKey& key, const std::string& value) {

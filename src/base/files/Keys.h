@@ -42,6 +42,13 @@ struct WholeRange {
   std::string text() const;  ///< "a whole number, at least 0"
 };
 
+/// The values of a parameter on a grid, ascending. In a file: one number, a list, or a table
+/// {from, to, step} or {from, to, n, spacing}.
+struct ValueGrid {
+  std::vector<double> values{};
+  bool operator==(const ValueGrid&) const = default;
+};
+
 struct ConfigKey {
   std::string_view name, meaning;
   bool is_required = false;
@@ -93,6 +100,7 @@ class RangeCheck {
     if (value) (*this)(key, *value, range);
   }
   void operator()(const ConfigKey& key, const std::vector<double>& values, const Range& range);
+  void operator()(const ConfigKey& key, const ValueGrid& grid, const Range& range);
   void operator()(const ConfigKey& key, int value, const WholeRange& range);
   template <typename Value>
   void operator()(const ConfigKey&, const Value&) {}  // no range
@@ -128,6 +136,8 @@ class KeysReport {
   static std::string text_of(bool value);
   static std::string text_of(const std::optional<double>& value);
   static std::string text_of(const std::vector<double>& values);
+  static std::string text_of(const std::vector<std::string>& values);
+  static std::string text_of(const ValueGrid& grid);
   void add(const ConfigKey& key, const std::string& value);
 };
 

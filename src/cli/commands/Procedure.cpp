@@ -15,10 +15,10 @@
 namespace heft::cli {
 
 namespace {
-void converse(const std::string& file) {
+void converse(const std::string& file, bool with_posterior) {
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is reported as an error
   std::ios::sync_with_stdio(false);
-  ProcedureDialog(load_procedure(file), std::cout).run(std::cin);
+  ProcedureDialog(load_procedure(file), std::cout, with_posterior).run(std::cin);
 }
 
 // The keys of a procedure file, from their declarations.
@@ -62,6 +62,14 @@ void add_procedure(Command& app) {
       "more. Every kind takes it as a response: any choice is true, none is false.",
       R"(A kind that ends by "trials" alone, such as "constant", estimates null; low and high are)",
       "the ends of the estimate's interval, null where the kind gives none.",
+      R"(Bayesian kinds add "sd" and "censored" to finished. The estimate is null if)",
+      R"(the posterior is not inside its grid ("above": only low is known, "below":)",
+      R"(only high) or if the answers do not depend on the level ("indeterminate").)",
+      "With --posterior they write after each answer, with 95 % intervals and the",
+      "mode of all parameters together:",
+      R"(  > {"event":"posterior","staircase":"15g","trial":3,"parameters":)"
+      R"({"threshold":{"mean":88.5,"sd":20.5,"mode":85,"low":49.5,"high":130},...}})",
+      R"(and with each trial the "recommended" level.)",
       R"(Invalid input is answered by {"event":"error","line":N,"message":...}; the trial)",
       "stays open. It ends, with exit code 0, when all staircases are done or its input ends."};
   for (std::string& line : keys_of_files()) lines.push_back(std::move(line));
@@ -71,7 +79,10 @@ void add_procedure(Command& app) {
   command
       .add_option("FILE", file.get(), "procedure file (TOML): seed, interleave, [[staircase]]...")
       .required();
-  command.does([file] { converse(*file); });
+  const auto with_posterior = std::make_shared<bool>(false);
+  command.add_flag("--posterior", *with_posterior,
+                   "write the posterior of Bayesian kinds after each answer");
+  command.does([file, with_posterior] { converse(*file, *with_posterior); });
 }
 
 }  // namespace heft::cli

@@ -50,9 +50,21 @@ std::string error_event(int line_number, std::string_view message) {
                      json_text(message));
 }
 
-std::string trial_event(int trial, const std::string& staircase, double level) {
-  return fmt::format(R"({{"event":"trial","trial":{},"staircase":{},"level":{}}})", trial,
-                     json_text(staircase), level);
+std::string trial_event(int trial, const std::string& staircase, double level, bool recommended) {
+  return fmt::format(R"({{"event":"trial","trial":{},"staircase":{},"level":{}{}}})", trial,
+                     json_text(staircase), level,
+                     recommended ? fmt::format(R"(,"recommended":{})", level) : "");
+}
+
+std::string posterior_event(int trial, const std::string& staircase,
+                            const std::vector<ParameterPosterior>& posterior) {
+  std::string parameters;
+  for (const ParameterPosterior& one : posterior)
+    parameters += fmt::format(R"({}{}:{{"mean":{},"sd":{},"mode":{},"low":{},"high":{}}})",
+                              parameters.empty() ? "" : ",", json_text(one.name), one.mean, one.sd,
+                              one.mode, one.low, one.high);
+  return fmt::format(R"({{"event":"posterior","staircase":{},"trial":{},"parameters":{{{}}}}})",
+                     json_text(staircase), trial, parameters);
 }
 
 std::string reversal_event(int trial, const std::string& staircase, const Reversal& reversal) {
@@ -67,19 +79,24 @@ std::string json_number(const std::optional<double>& number) {
   return number ? fmt::to_string(*number) : "null";
 }
 
-// With the first of its estimates.
+// With the first of its estimates, and why a Bayesian kind gives none.
 std::string finished_event(const Procedure& staircase, StopReason reason) {
   const Estimate estimate = staircase.estimates().front();
+  std::string bayesian;
+  if (!staircase.posterior().empty())
+    bayesian = fmt::format(R"("sd":{},"censored":{},)", json_number(estimate.sd),
+                           json_text(name_of(estimate.censored)));
   return fmt::format(
       R"({{"event":"finished","staircase":{},"reason":{},"estimate":{},"low":{},"high":{},)"
-      R"("n_trials":{}}})",
+      R"({}"n_trials":{}}})",
       json_text(staircase.name()), json_text(name_of(reason)), json_number(estimate.value),
-      json_number(estimate.low), json_number(estimate.high), staircase.n_trials());
+      json_number(estimate.low), json_number(estimate.high), bayesian, staircase.n_trials());
 }
 }  // namespace
 
-ProcedureDialog::ProcedureDialog(InterleavedProcedures procedures, std::ostream& out)
-    : procedures_(std::move(procedures)), out_(out) {}
+ProcedureDialog::ProcedureDialog(InterleavedProcedures procedures, std::ostream& out,
+                                 bool with_posterior)
+    : procedures_(std::move(procedures)), out_(out), with_posterior_(with_posterior) {}
 
 void ProcedureDialog::run(std::istream& in) {
   next_trial();
@@ -112,6 +129,9 @@ void ProcedureDialog::respond(const AnswerLine& answer) {
   const Update update = staircase.respond(answer.response, answer.level.value_or(level_));
   previous_ = current_;
   if (update.reversal) write(reversal_event(trial_, staircase.name(), *update.reversal));
+  if (with_posterior_)
+    if (const auto posterior = staircase.posterior(); !posterior.empty())
+      write(posterior_event(trial_, staircase.name(), posterior));
   if (update.finish) write(finished_event(staircase, *update.finish));
 }
 
@@ -122,7 +142,8 @@ void ProcedureDialog::next_trial() {
   if (!current_) return write(R"({"event":"done"})");
   const Procedure& staircase = procedures_.staircases[*current_];
   level_ = staircase.next_level(level_stream(procedures_.seed, staircase.name()));
-  write(trial_event(trial_, staircase.name(), level_));
+  const bool recommended = with_posterior_ && !staircase.posterior().empty();
+  write(trial_event(trial_, staircase.name(), level_, recommended));
 }
 
 void ProcedureDialog::write(const std::string& json) {

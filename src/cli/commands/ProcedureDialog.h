@@ -27,7 +27,9 @@ AnswerLine parse_answer(const std::string& line);
 class ProcedureDialog {
  public:
   /// @param out every line is flushed
-  ProcedureDialog(InterleavedProcedures procedures, std::ostream& out);
+  /// @param with_posterior whether Bayesian kinds write their posterior after each answer, and the
+  /// level that they recommend with each trial
+  ProcedureDialog(InterleavedProcedures procedures, std::ostream& out, bool with_posterior = false);
 
   /// Runs the dialog until every staircase is finished or the input ends.
   /// @throws Error if a line cannot be written
@@ -41,6 +43,7 @@ class ProcedureDialog {
 
   InterleavedProcedures procedures_;
   std::ostream& out_;
+  bool with_posterior_;
   std::optional<std::size_t> current_;   ///< staircase of the open trial; none: all are finished
   std::optional<std::size_t> previous_;  ///< of the last completed trial
   int trial_ = 0;                        ///< number of the open trial

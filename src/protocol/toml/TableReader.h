@@ -37,6 +37,8 @@ class TableReader {
   void read(std::string_view key, std::string& field);
   /// One or more numbers.
   void read(std::string_view key, std::vector<double>& field, const Range& range = any_number);
+  /// A number, a list, {from, to, step} or {from, to, n, spacing = "linear"|"log"}.
+  void read(std::string_view key, ValueGrid& field, const Range& range = any_number);
   /// One or more texts, none of them empty.
   void read(std::string_view key, std::vector<std::string>& field);
   void read(std::string_view key, Eigen::Vector2d& field, const Range& range = any_number);
@@ -116,6 +118,7 @@ class TableReader {
   const TomlEntry* take_misspelled(std::string_view key);
   void refuse(const TomlNode& node, std::string_view key, const std::string& expected);
   void refuse_unknown(const TomlEntry& entry);
+  void read_spaced(std::string_view key, ValueGrid& field, const Range& range);
   std::optional<double> number(const TomlNode& node, std::string_view key, const Range& range);
   std::optional<std::int64_t> whole(std::string_view key, const WholeRange& range);
   std::optional<std::vector<double>> numbers(std::string_view key, const Range& range,

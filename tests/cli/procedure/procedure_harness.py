@@ -20,12 +20,12 @@ def toml(staircases, **keys):
     return text
 
 
-def heft(procedure, lines):
+def heft(procedure, lines, *options):
     """Runs a procedure (TOML) over input bytes. -> exit code, events, stderr"""
     with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
         file.write(procedure)
         file.flush()
-        run = subprocess.run(command(file.name), input=lines, capture_output=True, timeout=60)
+        run = subprocess.run(command(file.name, *options), input=lines, capture_output=True, timeout=60)
     events = [json.loads(line) for line in run.stdout.decode("utf-8").splitlines()]
     return run.returncode, events, run.stderr.decode("utf-8")
 

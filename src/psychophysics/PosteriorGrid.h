@@ -1,0 +1,95 @@
+// Bayesian inference on a grid of parameters, and the level of least expected entropy (Kontsevich &
+// Tyler 1999; Watson 2017; nuisance parameters: Prins 2013).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "psychophysics/Marginal.h"
+#include "psychophysics/ResponseModel.h"
+
+namespace heft {
+
+/// A grid of the model's four parameters and of levels.
+struct GridSpace {
+  ResponseModel model;
+  std::array<std::vector<double>, 4> parameters;  ///< values; one: fixed
+  std::array<bool, 4> is_nuisance{};
+  std::vector<double> levels;
+
+  bool operator==(const GridSpace&) const = default;
+  std::size_t n_points() const;
+};
+
+/// The probabilities of all outcomes at all points and levels. Immutable, and shared by all
+/// procedures with an equal grid. 4 bytes for each point, level and outcome.
+class LikelihoodTable {
+ public:
+  /// The table of a space, made where no procedure has it yet. Thread-safe.
+  static std::shared_ptr<const LikelihoodTable> shared(GridSpace space);
+
+  explicit LikelihoodTable(GridSpace space);
+
+  const GridSpace& space() const { return space_; }
+  std::size_t n_points() const { return n_points_; }
+  /// Points are ordered with the nuisance parameters fastest: as many successive points differ in
+  /// these only.
+  std::size_t n_nuisance() const { return n_nuisance_; }
+  ParameterValues point(std::size_t i) const;
+  /// Position of a point in the values of a parameter.
+  std::size_t position(std::size_t i, std::size_t parameter) const {
+    return i / stride_[parameter] % space_.parameters[parameter].size();
+  }
+
+  /// Probabilities at a point by level, of the outcomes except the first.
+  const float* outcome(std::size_t i, std::size_t outcome) const {
+    return &table_[(i * n_rows_ + outcome - 1) * space_.levels.size()];
+  }
+  /// Entropy of the outcome at a point by level, in nats. Only without nuisance parameters.
+  const float* entropy(std::size_t i) const { return outcome(i, space_.model.n_outcomes()); }
+
+  /// Log probability of a response at any level, for every point; finite.
+  std::vector<double> log_likelihood(double level, const Response& response) const;
+
+ private:
+  template <typename Visit>
+  void visit_points(const std::vector<double>& levels, const Visit& visit) const;
+
+  GridSpace space_;
+  std::size_t n_points_, n_nuisance_, n_rows_;
+  std::array<std::size_t, 4> stride_{};
+  std::vector<float> table_;
+};
+
+/// A probability distribution over the points of a table; uniform before the first trial.
+class PosteriorGrid {
+ public:
+  explicit PosteriorGrid(std::shared_ptr<const LikelihoodTable> table);
+
+  /// @param level presented, on the grid of levels or not
+  void update(double level, const Response& response);
+
+  /// Expected entropy, in nats, of the posterior after one more trial at each level; with nuisance
+  /// parameters, of the marginal of the others.
+  std::vector<double> expected_entropies() const;
+  /// The first level whose expected entropy is within 1e-7 nats of the least: levels that are
+  /// equally good, as in symmetric grids, do not depend on rounding.
+  double best_level() const;
+
+  Marginal marginal(std::size_t parameter) const;
+  ParameterValues mode() const;  ///< the first most probable point
+  double log_evidence() const { return posterior_.log_evidence(); }
+  const LikelihoodTable& table() const { return *table_; }
+
+ private:
+  const std::vector<double>& weights() const { return posterior_.weights(); }
+  void add_joint(std::vector<double>& expected) const;
+  void add_marginal(std::vector<double>& expected) const;
+
+  std::shared_ptr<const LikelihoodTable> table_;
+  LogWeights posterior_;
+};
+
+}  // namespace heft

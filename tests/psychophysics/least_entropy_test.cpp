@@ -1,0 +1,206 @@
+// QUEST+ and Psi: values that are copied and replayed, numbers that stay finite, and estimates only
+// where the responses identify them. Levels and posteriors are compared with other implementations
+// in tests/cli/procedure/bayesian_test.py.
+#include <gmock/gmock.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "psychophysics/BayesianKinds.h"
+#include "psychophysics/LeastEntropy.h"
+#include "psychophysics/ProcedureKinds.h"
+
+namespace heft {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Optional;
+
+std::vector<std::string> mistakes_of(const auto& config) {
+  std::vector<std::string> texts;
+  for (const ConfigMistake& mistake : config.check()) texts.push_back(mistake.text());
+  return texts;
+}
+
+double total(const Marginal& marginal) {
+  return std::accumulate(marginal.weights.begin(), marginal.weights.end(), 0.0);
+}
+
+RC_GTEST_PROP(LeastEntropyProperty, StaysAProbabilityForThousandsOfTrials, ()) {
+  Psi psi(test::any_psi(10'000));
+  const std::vector<double>& levels = psi.grid().table().space().levels;
+  RandomStream stream(*rc::gen::arbitrary<std::uint64_t>(), "answers");
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double level = psi.next_level(stream);
+    RC_ASSERT(std::ranges::count(levels, level) == 1);
+    const bool off_plan = stream.coin(0.05);
+    Response response = response_of(static_cast<Choice>(stream.below(3)));
+    psi.respond(response, off_plan ? 1e300 * (stream.uniform() - 0.5) : level);
+  }
+  for (std::size_t i = 0; i < 4; ++i) RC_ASSERT(std::abs(total(psi.grid().marginal(i)) - 1) < 1e-9);
+  for (const double entropy : psi.grid().expected_entropies()) RC_ASSERT(std::isfinite(entropy));
+  for (const ParameterPosterior& one : psi.posterior())
+    for (const double value : {one.mean, one.sd, one.mode, one.low, one.high})
+      RC_ASSERT(std::isfinite(value));
+  RC_ASSERT(std::isfinite(psi.grid().log_evidence()));
+}
+
+RC_GTEST_PROP(LeastEntropyProperty, ReplaysToTheSameTraceAndCopiesAreApart, ()) {
+  const PsiConfig config = test::any_psi(30);
+  Procedure first("s", config), other = first;
+  const RandomStream stream = level_stream(1, "s");
+  std::vector<std::pair<Response, double>> answers;
+  std::vector<double> levels;
+  while (!first.finished()) {
+    levels.push_back(first.next_level(stream));
+    answers.emplace_back(test::any_response(), levels.back());
+    first.respond(answers.back().first, levels.back());
+  }
+  RC_ASSERT(other.n_trials() == 0);
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    RC_ASSERT(other.next_level(stream) == levels[i]);
+    other.respond(answers[i].first, answers[i].second);
+  }
+  RC_ASSERT(other.finish() == StopReason::trials);
+  RC_ASSERT(other.estimates()[0].value == first.estimates()[0].value);
+  for (std::size_t i = 0; i < first.posterior().size(); ++i)
+    RC_ASSERT(first.posterior()[i].mean == other.posterior()[i].mean);
+}
+
+TEST(LeastEntropy, AnImpossibleResponseLeavesTheOthersInOrder) {
+  QuestPlusConfig config = test::detection_of_grams<QuestPlusConfig>(5000);
+  config.guess = config.lapse = {{0}};
+  QuestPlus procedure(config);
+  for (int i = 0; i < 2000; ++i) procedure.respond({true}, 400);
+  for (int i = 0; i < 2000; ++i) procedure.respond({false}, -1e6);
+  for (int i = 0; i < 500; ++i) procedure.respond({false}, 1e6);  // each has probability 0
+  for (int i = 0; i < 300; ++i) procedure.respond({i % 2 == 0}, 200);
+  const ParameterPosterior threshold = procedure.posterior()[0];
+  EXPECT_NEAR(threshold.mean, 200, 10);
+}
+
+TEST(LeastEntropy, EqualGridsShareOneTable) {
+  const PsiConfig config = test::heavier_at_200g(40);
+  const Psi one(config);
+  Psi other(config);
+  other.respond(response_of(Choice::none), 100);
+  EXPECT_EQ(&one.grid().table(), &other.grid().table());
+  PsiConfig different = config;
+  different.lapse = {{0.03}};
+  EXPECT_NE(&Psi(different).grid().table(), &one.grid().table());
+}
+
+TEST(LeastEntropy, SymmetricLevelsAreChosenByTheLower) {
+  QuestPlusConfig config;
+  config.function = ResponseFunction::logistic;
+  config.levels = {{-30, -20, -10, 10, 20, 30}};
+  config.threshold = {{-20, -10, 0, 10, 20}};
+  config.slope = {{5}};
+  config.guess = config.lapse = {{0.02}};
+  config.stop_trials = 10;
+  EXPECT_EQ(QuestPlus(config).next_level(level_stream(1, "s")), -10);
+}
+
+// Observers drawn from the prior, for whom intervals hold the truth in 95 %; by the cumulative sums
+// of a grid of 49 values, in 93 %.
+TEST(LeastEntropy, EstimatesWhatObserversHave) {
+  PsiConfig config = test::heavier_at_200g(60);
+  config.sensitivity = test::ratios(0.002, 0.05, 49);
+  config.nuisance = {"indecision", "bias", "lapse"};
+  const Procedure psi("s", config);
+  int n_estimates = 0, n_inside = 0;
+  double squares = 0;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    RandomStream draw(i, "person");
+    const auto any = [&](const ValueGrid& grid) {
+      return grid.values[draw.below(grid.values.size())];
+    };
+    const IndecisionParameters person{any(config.sensitivity), any(config.indecision),
+                                      any(config.bias), any(config.lapse)};
+    const double threshold = threshold_75_times_sensitivity / person.sensitivity;
+    if (threshold < 30 || threshold > 200) continue;  // near an end of the grid
+    const Estimate estimate = test::estimate_of(psi, i, [&](double level, RandomStream& stream) {
+      return test::answer_of(person, level, stream);
+    });
+    if (!estimate.value) continue;
+    ++n_estimates;
+    n_inside += *estimate.low <= threshold && threshold <= *estimate.high ? 1 : 0;
+    squares += std::pow(std::log(*estimate.value / threshold), 2);
+  }
+  EXPECT_GE(n_estimates, 90);
+  EXPECT_GE(n_inside, 0.88 * n_estimates);
+  EXPECT_LT(std::sqrt(squares / n_estimates), 0.35);
+}
+
+TEST(LeastEntropy, CoinsAndConstantAnswersHaveNoEstimate) {
+  const Procedure choice("c", test::heavier_at_200g(60));
+  const Procedure detection("d", test::detection_of_grams<PsiConfig>(60));
+  const auto n_estimates = [](const Procedure& procedure, const auto& answer) {
+    int n = 0;
+    for (std::uint64_t i = 0; i < 100; ++i)
+      n += test::estimate_of(procedure, i, answer).value ? 1 : 0;
+    return n;
+  };
+  const auto coin = [](double, RandomStream& stream) {
+    return response_of(static_cast<Choice>(stream.below(3)));
+  };
+  const auto yes_or_no = [](double, RandomStream& stream) { return Response{stream.coin(0.5)}; };
+  const auto comparison = [](double, RandomStream&) { return response_of(Choice::comparison); };
+  const auto none = [](double, RandomStream&) { return response_of(Choice::none); };
+  EXPECT_LE(n_estimates(choice, coin), 5);
+  EXPECT_LE(n_estimates(detection, yes_or_no), 5);
+  for (const Procedure* procedure : {&choice, &detection}) {
+    EXPECT_EQ(n_estimates(*procedure, comparison), 0);
+    EXPECT_EQ(n_estimates(*procedure, none), 0);
+  }
+}
+
+TEST(LeastEntropyConfig, NamesItsMistakes) {
+  const PsiConfig good = test::heavier_at_200g(40);
+  EXPECT_THAT(mistakes_of(good), ElementsAre());
+  const auto with = [&](const auto& change) {
+    PsiConfig config = good;
+    change(config);
+    return mistakes_of(config);
+  };
+  EXPECT_THAT(with([](auto& c) {
+                c.threshold = {{1, 2}};
+              }),
+              ElementsAre(HasSubstr("threshold together with function \"indecision\"")));
+  EXPECT_THAT(with([](auto& c) {
+                c.levels = {{0, 10, 5}};
+              }),
+              ElementsAre("levels has 5 after 10, expected ascending values"));
+  EXPECT_THAT(with([](auto& c) { c.sensitivity = {{0.1}}; }),
+              ElementsAre(HasSubstr("sensitivity has one value")));
+  EXPECT_THAT(with([](auto& c) { c.nuisance = {"slope"}; }),
+              ElementsAre(HasSubstr("nuisance has \"slope\"")));
+  EXPECT_THAT(with([](auto& c) {
+                c.nuisance = {"sensitivity", "indecision", "bias", "lapse"};
+              }),
+              ElementsAre(HasSubstr("nuisance has every parameter")));
+  EXPECT_THAT(with([](auto& c) { c.floor = 700; }),
+              ElementsAre(HasSubstr("no level is between floor and ceiling")));
+  EXPECT_THAT(with([](auto& c) { c.levels = test::spaced(0, 1, 30'000); }),
+              ElementsAre(HasSubstr("too large a grid")));
+  PsiConfig detection = test::detection_of_grams<PsiConfig>(10);
+  detection.guess = {{0.5}};
+  detection.lapse = {{0.1, 0.5}};
+  EXPECT_THAT(mistakes_of(detection), ElementsAre(HasSubstr("a sum below 1")));
+  EXPECT_THROW(Psi{detection}, InvalidConfig);
+}
+
+TEST(LeastEntropyConfig, LevelsBesideAReferenceSuitTheTask) {
+  EXPECT_TRUE(test::heavier_at_200g(40).check_beside(200).empty());
+  EXPECT_THAT(test::heavier_at_200g(40).check_beside(180).at(0).text(),
+              HasSubstr("levels has -180, expected above -180"));
+  PsiConfig detection = test::detection_of_grams<PsiConfig>(10);
+  EXPECT_TRUE(detection.check_beside(200).empty());
+  detection.levels.values.front() = -10;
+  EXPECT_THAT(detection.check_beside(200).at(0).text(), HasSubstr("function = \"indecision\""));
+}
+
+}  // namespace
+}  // namespace heft
