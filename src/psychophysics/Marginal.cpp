@@ -85,6 +85,12 @@ void LevelEvidence::add(const std::array<bool, 3>& outcomes) {
   log_constant_ += std::log(probability);
 }
 
+double LevelEvidence::for_model(double log_model) const {
+  const bool all_same =
+      *std::max_element(counts_.begin(), counts_.end()) == counts_[0] + counts_[1] + counts_[2];
+  return all_same ? 0 : log_model - log_constant_;
+}
+
 Estimate threshold_estimate(const Marginal& threshold, double log_bayes_factor) {
   Estimate estimate;
   if (threshold.values.size() < 2) return estimate;  // fixed, not estimated

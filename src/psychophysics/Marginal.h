@@ -59,8 +59,9 @@ class LevelEvidence {
 
   /// @param outcomes that the response can be
   void add(const std::array<bool, 3>& outcomes);
-  /// Log Bayes factor in favor of the model. @param log_model log probability of all responses
-  double for_model(double log_model) const { return log_model - log_constant_; }
+  /// Log Bayes factor in favor of the model; 0 where all responses are the same, which say nothing
+  /// about how the responses depend on the level. @param log_model log probability of all responses
+  double for_model(double log_model) const;
 
  private:
   std::size_t n_outcomes_;

@@ -152,9 +152,30 @@ TEST(LeastEntropy, CoinsAndConstantAnswersHaveNoEstimate) {
   EXPECT_LE(n_estimates(choice, coin), 5);
   EXPECT_LE(n_estimates(detection, yes_or_no), 5);
   for (const Procedure* procedure : {&choice, &detection}) {
-    EXPECT_EQ(n_estimates(*procedure, comparison), 0);
-    EXPECT_EQ(n_estimates(*procedure, none), 0);
+    const auto ends_indeterminate = [&](const auto& answer) {
+      const Estimate estimate = test::estimate_of(*procedure, 1, answer);
+      return !estimate.value && !estimate.low && !estimate.high &&
+             estimate.censored == Censored::indeterminate;
+    };
+    EXPECT_TRUE(ends_indeterminate(comparison));
+    EXPECT_TRUE(ends_indeterminate(none));
   }
+}
+
+TEST(LeastEntropy, AThresholdBeyondTheGridHasABound) {
+  const Procedure detection("d", test::detection_of_grams<PsiConfig>(60));
+  const auto observer = [](double threshold) {
+    return [threshold](double level, RandomStream& stream) {
+      return Response{level + 15 * stream.normal() > threshold};
+    };
+  };
+  const Estimate above = test::estimate_of(detection, 2, observer(392));
+  EXPECT_EQ(above.censored, Censored::above);
+  EXPECT_FALSE(above.value);
+  EXPECT_FALSE(above.high);
+  ASSERT_TRUE(above.low);
+  EXPECT_NEAR(*above.low, 380, 15);
+  EXPECT_EQ(test::estimate_of(detection, 2, observer(200)).censored, Censored::none);
 }
 
 TEST(LeastEntropyConfig, NamesItsMistakes) {
