@@ -44,6 +44,23 @@ void check_steps(const UpDownConfig& config, ConfigMistakes& mistakes) {
   }
 }
 
+void check_changes(const UpDownConfig& config, ConfigMistakes& mistakes) {
+  const std::vector<double>& after = config.change_after_trials;
+  if (after.empty()) return;
+  for (std::size_t i = 0; i < after.size(); ++i)
+    if (after[i] != std::floor(after[i]) || (i > 0 && after[i] <= after[i - 1]))
+      mistakes.push_back({{"change_after_trials"},
+                          fmt::format("change_after_trials has {}", after[i]),
+                          "ascending whole numbers",
+                          i});
+  const bool has_steps = config.step || !config.steps.empty();
+  if (has_steps && config.steps.size() != after.size() + 1)
+    mistakes.push_back({{"steps", "change_after_trials"},
+                        fmt::format("steps has {} steps and change_after_trials {} changes",
+                                    config.steps.size(), after.size()),
+                        "one step more than changes"});
+}
+
 void check_bounds(const UpDownConfig& config, ConfigMistakes& mistakes) {
   const auto& [start, floor, ceiling] = std::tie(config.start, config.floor, config.ceiling);
   if (floor && ceiling && *floor >= *ceiling) {
@@ -66,8 +83,11 @@ void check_bounds(const UpDownConfig& config, ConfigMistakes& mistakes) {
 std::string UpDownConfig::course(std::string_view unit) const {
   const std::string_view step_unit = step_scale == StepScale::linear ? unit : name_of(step_scale);
   if (!steps.empty())
-    return fmt::format("from {:g} {}, steps {:g} {}", start, unit, fmt::join(steps, ", "),
-                       step_unit);
+    return fmt::format(
+        "from {:g} {}, steps {:g} {}{}", start, unit, fmt::join(steps, ", "), step_unit,
+        change_after_trials.empty()
+            ? ""
+            : fmt::format(", changed after {:g} trials", fmt::join(change_after_trials, ", ")));
   const std::string halved =
       halve_every > 0 ? fmt::format(", halved every {} reversals", halve_every) : "";
   return fmt::format("from {:g} {}, steps {:g} {}{}", start, unit, step.value_or(0), step_unit,
@@ -77,6 +97,7 @@ std::string UpDownConfig::course(std::string_view unit) const {
 ConfigMistakes UpDownConfig::check() const {
   ConfigMistakes mistakes = out_of_range(*this);
   check_steps(*this, mistakes);
+  check_changes(*this, mistakes);
   check_bounds(*this, mistakes);
   if (discard_reversals >= stop_reversals)
     mistakes.push_back(
@@ -214,10 +235,18 @@ Reversal UpDown::add_reversal(const Move& move, double shown_level) {
   return reversals_.back();
 }
 
+std::size_t UpDown::n_step_changes(std::size_t n_reversals) const {
+  const std::vector<double>& after = config_.change_after_trials;
+  if (after.empty()) return n_reversals;
+  return static_cast<std::size_t>(
+      std::count_if(after.begin(), after.end(), [&](double n) { return n_trials_ >= n; }));
+}
+
 double UpDown::step(Direction direction, std::size_t n_reversals) const {
+  const std::size_t n_changes = n_step_changes(n_reversals);
   if (direction == Direction::up && !config_.steps_up.empty())
-    return listed_step(config_.steps_up, n_reversals);
-  if (!config_.steps.empty()) return listed_step(config_.steps, n_reversals);
+    return listed_step(config_.steps_up, n_changes);
+  if (!config_.steps.empty()) return listed_step(config_.steps, n_changes);
   return halved_step(config_, n_reversals);
 }
 

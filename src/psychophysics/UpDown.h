@@ -67,6 +67,9 @@ struct UpDownConfig {
   /// decade) or in decades, see step_scale.
   std::vector<double> steps{};
   std::vector<double> steps_up{};  ///< for upward moves; empty: the same as down
+  /// If given: `steps` and `steps_up` instead change after these numbers of trials (expyfun's
+  /// change_rule = "trials").
+  std::vector<double> change_after_trials{};
   std::optional<double> step{};
   int halve_every = 0;
   double min_step = 0;
@@ -112,6 +115,9 @@ void visit_keys(Config& config, Visit&& visit) {
   visit(ConfigKey{"steps", "instead: steps after 0, 1, 2... reversals; the last one repeats"},
         config.steps, steps);
   visit(ConfigKey{"steps_up", "steps of upward moves, if different"}, config.steps_up, steps);
+  visit(
+      ConfigKey{"change_after_trials", "numbers of trials after which steps change, not reversals"},
+      config.change_after_trials, Range{1});
   const Range levels = is_ratio ? zero_or_more : any_number;
   visit(ConfigKey{"floor", "lowest level", false, "floor {} g"}, config.floor, levels);
   visit(ConfigKey{"ceiling", "highest level", false, "ceiling {} g"}, config.ceiling, levels);
@@ -187,6 +193,7 @@ class UpDown {
   Reversal add_reversal(const Move& move, double shown_level);
   void make(const Move& move);
   double step(Direction direction, std::size_t n_reversals) const;
+  std::size_t n_step_changes(std::size_t n_reversals) const;
   double moved(double level, Direction direction, double step) const;
   double landed(double target) const;
   double presented(double level) const;

@@ -40,6 +40,7 @@ name = "lists"
 start = 20
 steps = [8, 4.5, 2]
 steps_up = [3]
+change_after_trials = [5, 12]
 step_scale = "db"
 )";
 
@@ -70,6 +71,7 @@ TEST(ProcedureFile, ReadsEveryKey) {
   const auto& second = config.staircases[1].get_if<UpDown>()->config();
   EXPECT_THAT(second.steps, ElementsAre(8, 4.5, 2));
   EXPECT_THAT(second.steps_up, ElementsAre(3));
+  EXPECT_THAT(second.change_after_trials, ElementsAre(5, 12));
   EXPECT_EQ(second.step_scale, StepScale::db);
 }
 
@@ -181,6 +183,9 @@ const std::vector<Broken> broken_procedures{
     {"stop_within_default_discard",
      {"steps_up = [3]", "stop_reversals = ^2"},
      {"leaves no reversal"}},
+    {"changes_that_descend", {"[5, 12]", "[5, ^5]"}, {"has 5", "ascending whole numbers"}},
+    {"half_a_trial", {"[5, 12]", "[5, ^12.5]"}, {"has 12.5", "whole numbers"}},
+    {"more_steps_than_changes", {"[8, 4.5, 2]", "^[8, 4.5]"}, {"one step more than changes"}},
     {"min_trials_beyond_stop", {"min_trials = 4", "min_trials = ^91"}, {"at most stop_trials 90"}},
     {"same_name", {"\"lists\"", "^\"15g\""}, {"another staircase", "15g", "line 4"}},
     {"staircase_as_table",

@@ -74,14 +74,15 @@ class OtherProgramsTraces(unittest.TestCase):
     def test_expyfun(self):
         def make(rng):
             n = rng.randint(1, 4)
-            changes = sorted(rng.sample(range(1, 10), n - 1))
+            rule = rng.choice(["reversals", "trials"])
+            changes = sorted(rng.sample(range(1, 30 if rule == "trials" else 10), n - 1))
             start = rng.uniform(-5, 5)
             return Expyfun(rng.randint(1, 3), rng.randint(1, 4),
                            [rng.uniform(0.1, 3) for _ in range(n)],
                            [rng.uniform(0.1, 3) for _ in range(n)], changes, rng.randint(1, 15),
                            rng.randint(5, 80), start, start - rng.uniform(0, 8),
-                           start + rng.uniform(0.1, 8))
-        self.many(150, make)
+                           start + rng.uniform(0.1, 8), rule)
+        self.many(200, make)
 
     def test_palamedes(self):
         def make(rng):

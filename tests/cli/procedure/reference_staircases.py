@@ -54,10 +54,11 @@ class PsychoPy:
 
 class Expyfun:
     """TrackerUD, limits ignored as reversals: two counters, own lists of steps up and down that
-    change at given numbers of reversals; ends when reversals or trials are reached."""
+    change at given numbers of reversals or trials; ends when reversals or trials are reached."""
 
     def __init__(self, up, down, steps_up, steps_down, change_indices, stop_reversals, stop_trials,
-                 start, low, high):
+                 start, low, high, change_rule="reversals"):
+        self.change_rule = change_rule
         self.up, self.down, self.steps_up, self.steps_down = up, down, steps_up, steps_down
         self.change_indices, self.stop_reversals = change_indices, stop_reversals
         self.stop_trials, self.start, self.low, self.high = stop_trials, start, low, high
@@ -81,15 +82,22 @@ class Expyfun:
                 self.reversals.append(self.level)
             self.direction = step_direction
         self.finished = (len(self.reversals) >= self.stop_reversals or self.n >= self.stop_trials)
-        index = sum(len(self.reversals) >= change for change in self.change_indices)
+        n = self.n if self.change_rule == "trials" else len(self.reversals)
+        index = sum(n >= change for change in self.change_indices)
         steps = self.steps_up if step_direction > 0 else self.steps_down
         self.level = min(max(self.level + step_direction * steps[index], self.low), self.high)
 
     def keys(self):
+        if self.change_rule == "trials" and self.change_indices:
+            return self.other_keys() | dict(steps=self.steps_down, steps_up=self.steps_up,
+                                            change_after_trials=self.change_indices)
         per_reversal = range(self.change_indices[-1] + 1 if self.change_indices else 1)
         index = [sum(n >= change for change in self.change_indices) for n in per_reversal]
-        return dict(start=self.start, steps=[self.steps_down[i] for i in index],
-                    steps_up=[self.steps_up[i] for i in index], up=self.up, down=self.down,
+        return self.other_keys() | dict(steps=[self.steps_down[i] for i in index],
+                                        steps_up=[self.steps_up[i] for i in index])
+
+    def other_keys(self):
+        return dict(start=self.start, up=self.up, down=self.down,
                     stop_reversals=self.stop_reversals, stop_trials=self.stop_trials,
                     floor=self.low, ceiling=self.high)
 
