@@ -214,8 +214,10 @@ void visit_columns(Row& row, Visit&& visit) {
       LogColumn{
           "censored", "",
           "whether the floor or ceiling limited a move that the estimate depends on, or the trial "
-          "limit ended the procedure; sessions of log_version 5: whether a counted reversal was "
-          "at a bound"},
+          "limit ended the procedure; of Bayesian kinds, whether the posterior reaches the upper "
+          "(above) or lower end of its grid, or the answers do not identify it "
+          "(indeterminate); sessions of log_version 5: whether a counted reversal was at a "
+          "bound"},
       row.censored);
 }
 
