@@ -8,7 +8,7 @@
 namespace heft {
 
 namespace {
-constexpr std::size_t most_cells = 40'000'000;  // points times levels: 500 MB at most
+constexpr std::size_t most_cells = 20'000'000;  // points times levels: 240 MB at most
 
 double largest(const ValueGrid& grid) {
   return grid.values.empty() ? 0 : grid.values.back();
