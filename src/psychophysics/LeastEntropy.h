@@ -59,7 +59,8 @@ struct PsiConfig : LeastEntropyConfig {
 template <typename Config, typename Visit>
 requires ConfigOf<Config, QuestPlusConfig> || ConfigOf<Config, PsiConfig>
 void visit_keys(Config& config, Visit&& visit) {
-  visit(ConfigKey{"function", "response model: psychometric function or indecision", true, "{}"},
+  visit(ConfigKey{"function", "response model: psychometric function or indecision", true,
+                  ConfigOf<Config, PsiConfig> ? "Psi, function {}" : "QUEST+, function {}"},
         config.function);
   visit(ConfigKey{"scale", "unit of levels in the Weibull function"}, config.scale);
   const bool is_ratio = !config.is_indecision() && config.model().psychometric().takes_logarithm();

@@ -51,7 +51,7 @@ template <typename Config, typename Visit>
 requires ConfigOf<Config, QuestConfig>
 void visit_keys(Config& config, Visit&& visit) {
   const Range share{0, 1, true, true};
-  visit(ConfigKey{"guess", "threshold expected before the first trial", true, "guess {} g"},
+  visit(ConfigKey{"guess", "threshold expected before the first trial", true, "QUEST, guess {} g"},
         config.guess, any_number);
   visit(ConfigKey{"guess_sd", "SD of that guess; better too large", true, "SD {} g"},
         config.guess_sd, above_zero);

@@ -213,6 +213,14 @@ TEST(LeastEntropyConfig, NamesItsMistakes) {
   EXPECT_THROW(Psi{detection}, InvalidConfig);
 }
 
+TEST(LeastEntropyConfig, IsReportedWithItsFunctionsParameters) {
+  EXPECT_EQ(
+      ProcedureKinds::described(Procedure("s", test::heavier_at_200g(40))),
+      "Psi, function indecision, levels -180 to 600 (40 values) g, sensitivity 0.001 to 0.1 (25 "
+      "values), indecision 0 to 3 (13 values), bias -0.5, 0, 0.5, lapse 0.02, 0.1, nuisance "
+      "bias, lapse, at most 40 trials, interval width none");
+}
+
 TEST(LeastEntropyConfig, LevelsBesideAReferenceSuitTheTask) {
   EXPECT_TRUE(test::heavier_at_200g(40).check_beside(200).empty());
   EXPECT_THAT(test::heavier_at_200g(40).check_beside(180).at(0).text(),
