@@ -3,6 +3,8 @@
 Run: python3 tests/cli/fit/fit_test.py PATH_TO_HEFT
 """
 import json
+import sqlite3
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -11,6 +13,7 @@ from pathlib import Path
 import fit_harness
 from fit_harness import choice_differences, differences, fits, interval_differences, run
 
+PROTOCOLS = Path(__file__).resolve().parents[3] / "protocols"
 GOLDEN = Path(__file__).resolve().parents[2] / "golden" / "fit"
 RISING = "x,n_positive,n\n1,2,20\n2,5,20\n3,9,20\n4,15,20\n5,19,20\n"
 PSYCHOMETRIC = ["--model", "psychometric"]
@@ -65,6 +68,52 @@ class Fit(unittest.TestCase):
             for group in (column, "room"):  # each of one person
                 self.assertEqual(self.run_on(data, *PSYCHOMETRIC, "--by", group)[2], "")
         self.assertEqual(self.run_on(RISING, *PSYCHOMETRIC)[2], "")
+
+    def test_people_are_fitted_as_analyse_fits_them(self):
+        log = Path(self.folder.name) / "log.db"
+        subprocess.run([fit_harness.program, "simulate", PROTOCOLS / "paper.toml", "--db", log,
+                        "--participants", "7", "--seed", "5"], check=True, capture_output=True)
+        analysis = json.loads(subprocess.run([fit_harness.program, "analyse", "--db", log, "--json"],
+                                             check=True, capture_output=True).stdout)
+        rows = sqlite3.connect(log).execute(
+            "select participant, reference_g, level_g, reference_slot, chosen_slot from trial "
+            "join session using (session_id) where task = 'comparison' and status = 'completed' "
+            "and not is_practice order by trial_id").fetchall()
+        # Heavier on the right is above 0.
+        text = "who,reference_g,level_g,answer\n" + "".join(
+            f"{who},{reference:g},{level if on == 1 else -level},"
+            f"{ {None: 'none', 1: 'reference', 2: 'comparison'}[chosen]}\n"
+            for who, reference, level, on, chosen in rows)
+        found = self.fits_of(text, *INDECISION, "--person", "who", "--by", "reference_g")
+        self.assertEqual(len(found), 3)
+        n_thresholds = n_people = 0
+        for fit in found:
+            (row,) = [one for one in analysis["sensitivity"]
+                      if f"{one['reference_g']:g}" == fit["group"]]
+            self.assertEqual((fit["identifiable"], fit["why"], fit["n_trials"]),
+                             (row["identifiable"], row["why"], row["n_trials"]))
+            for name, prefix in (("threshold_75_g", ""), ("lapse", "lapse_rate_"),
+                                 ("indecision", "indecision_")):
+                figure = fit["parameters"][name]
+                expected = row.get({"lapse": "lapse_rate"}.get(name, name))
+                for value, same in ((figure["value"], expected),
+                                    (figure["low"], row.get(f"{prefix}low" if prefix else "low_g")),
+                                    (figure["high"],
+                                     row.get(f"{prefix}high" if prefix else "high_g"))):
+                    with self.subTest(group=fit["group"], name=name):
+                        self.assertEqual(value is None, same is None)
+                        self.assertAlmostEqual(value or 0, same or 0, delta=1e-6 * abs(same or 1))
+            n_thresholds += fit["identifiable"]
+            own = {one["participant"].split(" ")[0]: one for one in analysis["thresholds"]
+                   if one["reference_g"] == row["reference_g"]}
+            self.assertEqual(set(fit["people"]), set(own))
+            for who, person in fit["people"].items():
+                self.assertEqual(person["why"], own[who]["why"])
+                if person["identifiable"]:
+                    self.assertAlmostEqual(person["value"], own[who]["threshold_75_g"], delta=1e-6)
+                    n_people += 1
+        self.assertGreater(n_thresholds, 0)
+        self.assertGreater(n_people, 3)
 
     def test_json_has_the_names_of_the_contract(self):
         (fit,) = self.fits_of(RISING, *PSYCHOMETRIC)
@@ -143,9 +192,14 @@ class Fit(unittest.TestCase):
         for words in ([], ["--model", "probit"], [*PSYCHOMETRIC, "--guess", "1"],
                       [*PSYCHOMETRIC, "--lapse", "-0.1"], [*PSYCHOMETRIC, "--lapse", "fre"],
                       [*PSYCHOMETRIC, "--guess", "0.6", "--lapse", "0.4"],
-                      [*PSYCHOMETRIC, "--scale", "ln"], [*INDECISION, "--guess", "0"]):
+                      [*PSYCHOMETRIC, "--scale", "ln"], [*INDECISION, "--guess", "0"],
+                      [*PSYCHOMETRIC, "--person", "x"],
+                      [*INDECISION, "--person", "level_g", "--lapse", "0.02"]):
             with self.subTest(words=words):
                 self.assertEqual(self.run_on(RISING, *words)[0], 2)
+        code, _, message = self.run_on("level_g,answer,who\n5,none,P1\n", *INDECISION, "--person", "whom")
+        self.assertEqual(code, 2)
+        self.assertIn("who", message)
         self.assertEqual(run("/nowhere.csv", *PSYCHOMETRIC).returncode, 1)
 
     def test_help_has_examples_and_formulas(self):
