@@ -22,7 +22,7 @@ struct EnumNames<FitModel> {
 struct AnswerGroup {
   std::optional<std::string> name;  ///< the text in the column that groups; none: there is none
   AnswersByLevel answers;           ///< of levels that were shown
-  AnswersByPerson people{};  ///< the same, where a column says who answered
+  AnswersByPerson people{};         ///< the same, where a column says who answered
 };
 
 struct AnswerFormat {

@@ -1,5 +1,5 @@
-// The likelihood of answers in the indecision model at one level, with its derivatives: what the fit
-// of one file (IndecisionFit.cpp) and the mixed model over people (MixedIndecision.h) share.
+// The likelihood of answers in the indecision model at one level, with its derivatives: what the
+// fit of one file (IndecisionFit.cpp) and the mixed model over people (MixedIndecision.h) share.
 #pragma once
 
 #include <Eigen/Core>

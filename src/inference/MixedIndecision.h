@@ -1,10 +1,11 @@
 // Thresholds of several people from their three-way choices: the mixed indecision model.
 //
-// Person i perceives D = s_i x + b_i + N(0, 1) on a signed difference x, and answers "comparison" if
-// D > tau_i, "reference" if D < -tau_i, otherwise "none" (psychophysics/ObserverModels.h). log s and
-// log tau are jointly normal over people, b is normal around 0, and all share a lapse rate that is
-// free in [0, .2]. The person's effects are integrated out (PersonIntegral.h); estimates are maximum
-// likelihood, intervals profile likelihood with a cut for few people (PopulationLikelihood.h).
+// Person i perceives D = s_i x + b_i + N(0, 1) on a signed difference x, and answers "comparison"
+// if D > tau_i, "reference" if D < -tau_i, otherwise "none" (psychophysics/ObserverModels.h). log s
+// and log tau are jointly normal over people, b is normal around 0, and all share a lapse rate that
+// is free in [0, .2]. The person's effects are integrated out (PersonIntegral.h); estimates are
+// maximum likelihood, intervals profile likelihood with a cut for few people
+// (PopulationLikelihood.h).
 //
 // The likelihood holds under adaptive placement, because the levels of a person depend only on the
 // same person's earlier answers. Answers of several people in one curve do not: staircases send
@@ -73,8 +74,8 @@ struct MixedFit {
   std::map<std::string, double> influence;
 
   bool identifiable() const { return why.empty(); }
-  /// sensitivity, indecision, lapse, sd_log_sensitivity, sd_log_indecision, correlation, sd_bias and
-  /// threshold_75_g, without standard errors.
+  /// sensitivity, indecision, lapse, sd_log_sensitivity, sd_log_indecision, correlation, sd_bias
+  /// and threshold_75_g, without standard errors.
   Fit summary() const;
 };
 
@@ -98,7 +99,7 @@ OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* 
 /// the same people have in common in several fits cancels.
 struct ThresholdContrast {
   double value = 0, standard_error = 0;
-  int n = 0;  ///< people
+  int n = 0;                                                      ///< people
   Interval interval(double confidence = confidence_level) const;  ///< Student's t, n - 1 df
   /// The smallest true value that 80 % of such studies would find (95 % interval excludes 0).
   double smallest_effect() const;

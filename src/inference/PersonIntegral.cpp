@@ -225,8 +225,10 @@ void PersonIntegral::center(const Parameters& population) {
   const double log_scale = -factor.matrixLLT().diagonal().array().log().sum();
   nodes_.clear();
   shares_.clear();
+  nodes_.reserve(standard_nodes().size());
+  shares_.reserve(standard_nodes().size() * given_.size());
   for (const auto& [z, log_weight] : standard_nodes()) {
-    nodes_.push_back({mode_ + factor.matrixU().solve(z), log_weight + log_scale, shares_.size()});
+    nodes_.push_back({mode_ + factor.matrixU().solve(z), log_weight + log_scale});
     const IndecisionParameters own = own_parameters(nodes_.back().effects, 0);
     for (const Given& given : given_) {
       const double felt = own.sensitivity * given.level + own.bias;
@@ -239,10 +241,9 @@ void PersonIntegral::center(const Parameters& population) {
   }
 }
 
-PersonIntegral::AtNode PersonIntegral::at_node(const Node& node, double lapse) const {
+PersonIntegral::AtNode PersonIntegral::at_node(const double* share, double lapse) const {
   AtNode sum;
   double product = 1;  // of probabilities: its logarithm is taken before it underflows
-  const double* share = &shares_[node.first_share];
   for (const Given& given : given_) {
     const double p = std::max(lapse / 3 + (1 - lapse) * *share, 1e-100);
     const double slope = (1.0 / 3 - *share) / p;
@@ -260,28 +261,36 @@ PersonIntegral::AtNode PersonIntegral::at_node(const Node& node, double lapse) c
 
 double PersonIntegral::log_likelihood(const Parameters& population, Derivatives* derivatives) {
   const Distribution people(population);
+  struct Term {
+    AtNode at;
+    Eigen::Vector3d z;
+    double value = 0;
+  };
+  std::vector<Term> terms;
+  terms.reserve(nodes_.size());
   double most = -infinity;
-  for (Node& node : nodes_) {
-    node.at = at_node(node, population[shared_lapse]);
-    node.z = people.standardized(node.effects);
-    node.term = node.log_weight + node.at.value + people.log_density(node.z);
-    most = std::max(most, node.term);
+  for (const Node& node : nodes_) {
+    Term& term = terms.emplace_back(
+        Term{at_node(shares_.data() + terms.size() * given_.size(), population[shared_lapse]),
+             people.standardized(node.effects)});
+    term.value = node.log_weight + term.at.value + people.log_density(term.z);
+    most = std::max(most, term.value);
   }
   double sum = 0;
-  for (Node& node : nodes_) sum += node.term = std::exp(node.term - most);
+  for (Term& term : terms) sum += term.value = std::exp(term.value - most);
   const double value = most + std::log(sum);
   if (!derivatives) return value;
   Moments moments;
   Slopes slope = Slopes::Zero();
   Bends bend = Bends::Zero();
-  for (const Node& node : nodes_) {
-    const double weight = node.term / sum;
-    Slopes slopes = density_slopes(people, node.z);
-    slopes[shared_lapse] = node.at.slope;
+  for (const Term& term : terms) {
+    const double weight = term.value / sum;
+    Slopes slopes = density_slopes(people, term.z);
+    slopes[shared_lapse] = term.at.slope;
     slope += weight * slopes;
     bend.noalias() += (weight * slopes) * slopes.transpose();
-    bend(shared_lapse, shared_lapse) += weight * node.at.bend;
-    moments.add(weight, node.z);
+    bend(shared_lapse, shared_lapse) += weight * term.at.bend;
+    moments.add(weight, term.z);
   }
   score_ = slope;
   derivatives->gradient += slope;

@@ -55,14 +55,10 @@ class PersonIntegral {
   struct Node {
     PersonEffects effects;
     double log_weight = 0;
-    std::size_t first_share = 0;  // in shares_
-    // In the population last looked at.
-    AtNode at{};
-    Eigen::Vector3d z = Eigen::Vector3d::Zero();
-    double term = 0;
   };
 
-  AtNode at_node(const Node& node, double lapse) const;
+  /// @param shares of attentive answers there, as given_
+  AtNode at_node(const double* shares, double lapse) const;
   void find_mode(const Parameters& population);
 
   std::vector<LevelAnswers> answers_;

@@ -1,9 +1,10 @@
 // The likelihood of a population of people in the mixed indecision model (PersonIntegral.h): its
 // maximum, profile intervals, and each person's influence on the estimate.
 //
-// It is multiplied by 1 - rho^2 for the correlation rho of log s and log tau, which few people do not
-// identify: without this weak prior (LKJ with shape 2: Lewandowski, Kurowicka & Joe 2009) the estimate
-// is often -1 or 1, and thresholds of 13 people with 20 trials each came out 20 % too small.
+// It is multiplied by 1 - rho^2 for the correlation rho of log s and log tau, which few people do
+// not identify: without this weak prior (LKJ with shape 2: Lewandowski, Kurowicka & Joe 2009) the
+// estimate is often -1 or 1, and thresholds of 13 people with 20 trials each came out 20 % too
+// small.
 #pragma once
 
 #include <optional>

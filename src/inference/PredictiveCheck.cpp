@@ -268,7 +268,7 @@ std::optional<PredictedShares::Band> band(const std::vector<std::vector<Shares>>
   return PredictedShares::Band{of.mean, of.low, of.high};
 }
 
-// Of few people many studies, of many few: a share of .05 is told from .1 by a hundred.
+// Of few people many studies, of many few: a hundred distinguish a share of .05 from .1.
 int studies_for(std::size_t n_people) {
   return static_cast<int>(std::clamp<std::size_t>(100'000 / n_people, 100, 500));
 }

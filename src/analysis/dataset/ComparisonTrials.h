@@ -6,12 +6,14 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "analysis/dataset/Dataset.h"
 #include "analysis/dataset/Jnd.h"
 #include "inference/Fit.h"
+#include "inference/PredictiveCheck.h"
 
 namespace heft {
 
@@ -62,8 +64,23 @@ using ComparedTrials = std::vector<const ComparedTrial*>;
 ComparedTrials pointers_to(const std::deque<ComparedTrial>& trials);
 
 /// Trials in bins of neighboring differences, lowest first, about equally many in each; those of
-/// equal differences together, and those at 0, catch trials included, in a bin of their own.
+/// equal differences together, and those at 0, catch trials included, in a separate bin.
 std::vector<ComparedTrials> binned(ComparedTrials trials);
 double mean_level_g(const ComparedTrials& bin);
+
+/// The staircases that people ran, choice by choice, with the procedures as they were before the
+/// first trial: what a model has to run again to say what it predicts.
+class StaircaseRuns {
+ public:
+  void add(const SessionData& data);
+
+  /// One for each participant, which is then forgotten; empty where a staircase's procedure is not
+  /// known.
+  std::vector<PersonRuns> take(const Compared& compared);
+
+ private:
+  std::map<Compared, std::map<std::string, PersonRuns>> people_;
+  std::set<Compared> unknown_;
+};
 
 }  // namespace heft

@@ -208,10 +208,10 @@ Judgment judge_proportional(const Summary& summary) {
   const double mean_step =
       std::log(*thresholds.back()->reference_g / *thresholds.front()->reference_g) / steps;
   const double margin = std::log(1.5) / mean_step;
-  const std::string figures =
-      fmt::format("{}; {}; exponents in [{:.2f}, {:.2f}] are within a factor of 1.5 from each "
-                  "reference to the next",
-                  threshold_figures(thresholds), exponent_figure(exponent), 1 - margin, 1 + margin);
+  const std::string figures = fmt::format(
+      "{}; {}; exponents in [{:.2f}, {:.2f}] are within a factor of 1.5 from each "
+      "reference to the next",
+      threshold_figures(thresholds), exponent_figure(exponent), 1 - margin, 1 + margin);
   if (*exponent.low >= 1 - margin && *exponent.high <= 1 + margin)
     return {HypothesisVerdict::supported, figures + ": proportional"};
   if (*exponent.low > 1 || *exponent.high < 1)

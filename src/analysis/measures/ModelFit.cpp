@@ -81,9 +81,9 @@ void put_figures(Estimates& all, const ReferenceSensitivity& row, const Predicti
 }  // namespace
 
 void put_model_fit(Estimates& all, std::span<const ReferenceSensitivity> rows,
-                   const ComparisonTrials& trials, const StaircaseRuns& runs) {
+                   const ComparisonTrials& trials, StaircaseRuns& runs) {
   for (const ReferenceSensitivity& row : rows) {
-    const std::vector<PersonRuns> people = runs.at(row.compared);
+    const std::vector<PersonRuns> people = runs.take(row.compared);
     if (!row.fit.identifiable() || row.fit.n < least_people || people.empty()) continue;
     const Bins bins = binned(pointers_to(trials.by_compared().at(row.compared)));
     const PredictiveCheck check = check_predictions(row.fit, people, edges_between(bins));

@@ -7,7 +7,6 @@
 
 #include "analysis/dataset/ComparisonTrials.h"
 #include "analysis/dataset/Dataset.h"
-#include "analysis/dataset/StaircaseRuns.h"
 #include "analysis/dataset/StudyEstimate.h"
 #include "analysis/report/EstimateTable.h"
 #include "inference/MixedIndecision.h"
@@ -35,7 +34,7 @@ EstimateTable threshold_exponent_table();
 // Whether the model predicts what was seen, by reference and condition; in ModelFit.cpp.
 
 void put_model_fit(Estimates& all, std::span<const ReferenceSensitivity> rows,
-                   const ComparisonTrials& trials, const StaircaseRuns& runs);
+                   const ComparisonTrials& trials, StaircaseRuns& runs);
 EstimateTable model_fit_table();
 EstimateTable predictive_checks_table();
 /// "The indecision model predicts what was seen", or what it does not; empty: nothing was checked.

@@ -12,9 +12,9 @@ namespace heft {
 namespace {
 constexpr Measure ratio{"threshold_ratio", "", "ratio of thresholds",
                         "threshold at a reference over the threshold at the next lighter one"};
-constexpr Measure smallest_ratio{
-    "smallest_threshold_ratio", "", "smallest ratio",
-    "smallest ratio of thresholds that 80 % of studies of this size and spread would tell from 1"};
+constexpr Measure smallest_ratio{"smallest_threshold_ratio", "", "smallest ratio",
+                                 "smallest ratio of thresholds that 80 % of studies of this size "
+                                 "and spread would distinguish from 1"};
 constexpr Measure condition_ratio{
     "threshold_condition_ratio", "", "ratio of thresholds",
     "threshold in a condition over the threshold in another, at the same reference"};
@@ -23,7 +23,7 @@ constexpr Measure exponent{
     "slope of log threshold on log reference: 0 if thresholds are equal, 1 if proportional"};
 constexpr Measure smallest_exponent{
     "smallest_threshold_exponent", "", "smallest exponent",
-    "smallest exponent that 80 % of studies of this size and spread would tell from 0"};
+    "smallest exponent that 80 % of studies of this size and spread would distinguish from 0"};
 
 using Rows = std::vector<const ReferenceSensitivity*>;
 
@@ -99,13 +99,12 @@ void put_threshold_contrasts(Estimates& all, std::span<const ReferenceSensitivit
 }
 
 EstimateTable threshold_ratio_table() {
-  EstimateTable table{"threshold_ratios",
-                      "Ratios of thresholds",
-                      {key_column("reference_g", "reference g"),
-                       key_column("condition", "condition"),
-                       key_column("lighter_reference_g", "over reference g"),
-                       key_column("other_condition", "over condition"),
-                       column(ratio, Field::n, "n", "n")}};
+  EstimateTable table{
+      "threshold_ratios",
+      "Ratios of thresholds",
+      {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+       key_column("lighter_reference_g", "over reference g"),
+       key_column("other_condition", "over condition"), column(ratio, Field::n, "n", "n")}};
   for (const auto& [measure, prefix] :
        {std::pair(&ratio, ""), std::pair(&condition_ratio, "condition_")}) {
     const std::string name(prefix);

@@ -37,8 +37,11 @@ Table table_of(const NamedFit& named) {
 
 Table table_of_people(const NamedFit& named) {
   Table table{"people", "Each person's threshold", {}, {}, ""};
-  table.columns = {{"person", "person"}, {"value", "threshold g"},
-                   {"low", "95 % from"}, {"high", "to"}, {"why", "no threshold: why"}};
+  table.columns = {{"person", "person"},
+                   {"value", "threshold g"},
+                   {"low", "95 % from"},
+                   {"high", "to"},
+                   {"why", "no threshold: why"}};
   for (const auto& [person, own] : named.people) {
     const auto end = [&](double Interval::*of) {
       return own.interval_g ? figure(*own.interval_g.*of) : Cell{};

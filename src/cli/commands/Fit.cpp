@@ -87,8 +87,7 @@ void fit(const FitCommandOptions& options) {
   const FitModel model = *named<FitModel>(options.model);
   const FitOptions how = fit_options(options, model);
   std::vector<NamedFit> fits;
-  const std::vector<AnswerGroup> groups =
-      load_answers(
+  const std::vector<AnswerGroup> groups = load_answers(
       options.data, {model, options.group_by, how.function.takes_logarithm(), options.person});
   if (!options.person) warn_of_pooled(groups, model);
   for (const AnswerGroup& group : groups)
@@ -113,9 +112,11 @@ void add_fit(Command& app) {
        "heft fit forced_choice.csv --model psychometric --function weibull --guess 0.5 --lapse "
        "free",
        "heft fit choices.csv --model indecision --lapse 0.02 --by participant --json",
-       "heft fit choices.csv --model indecision --person participant", "",
+       "heft fit choices.csv --model indecision --person participant",
+       "",
        "DATA.csv begins with a header. Psychometric: x,n_positive,n or, a row a trial,",
-       "x,response (0 or 1). Indecision: level_g,answer (comparison, reference or none).", "",
+       "x,response (0 or 1). Indecision: level_g,answer (comparison, reference or none).",
+       "",
        "Psychometric: p(x) = guess + (1 - guess - lapse) F(x). With threshold t and slope s",
        "F is Phi((x - t) / s), 1 / (1 + exp(-(x - t) / s)) or, gumbel, 1 - exp(-exp((x - t) / s));",
        "Weibull's is 1 - exp(-(x / t)^s); where x is a logarithm, 1 - exp(-10^(s (x - t))) (log10)",
@@ -124,7 +125,8 @@ void add_fit(Command& app) {
        "reference where D < -indecision, otherwise none; a lapse is any of them.",
        "threshold_75_g = 0.6745 / sensitivity makes 75 % correct in a forced choice.",
        "With --person these differ between people: the mixed model of heft analyse, with a lapse",
-       "rate that all share, gives figures of the median person and each one's threshold.", "",
+       "rate that all share, gives figures of the median person and each one's threshold.",
+       "",
        "Maximum-likelihood estimates; SE from the observed information; 95 % profile intervals.",
        "If the threshold is not identifiable, the reason is printed instead."});
   command.add_option("DATA.csv", &options->data, "the answers").required();
