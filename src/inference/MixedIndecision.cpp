@@ -134,7 +134,7 @@ SensitivityRange range_of(const PopulationLikelihood::ProfileInterval& logs,
     return log_sensitivity ? std::optional(std::exp(*log_sensitivity) / largest_g) : std::nullopt;
   };
   if (logs.low || !logs.high) return {per_g(logs.low), per_g(logs.high), logs.low && !logs.high};
-  PopulationLikelihood mirrored(on_scale(people, largest_g, true), std::nullopt);
+  PopulationLikelihood mirrored(on_scale(people, largest_g, true));
   const Maximum down = mirrored.maximum();
   if (mirrored.excludes_no_sensitivity(down))
     return {std::nullopt, -std::exp(down.at[mean_log_sensitivity]) / largest_g};
@@ -155,35 +155,55 @@ void put_influence(MixedFit& found, const AnswersByPerson& people,
     found.influence[participant] = scale * influences[i++];
 }
 
+struct PopulationEstimate {
+  Maximum best;
+  PopulationLikelihood::ProfileInterval log_sensitivity, log_criterion, lapse;
+  std::vector<double> influences;
+  std::vector<ThresholdAtLapse> at_lapse;
+};
+
+// The likelihood, which is large, is let go of.
+PopulationEstimate estimate_population(const AnswersByPerson& people, double largest_g) {
+  PopulationLikelihood likelihood(on_scale(people, largest_g));
+  PopulationEstimate found{likelihood.maximum(), {}, {}, {}, {}, {}};
+  found.log_sensitivity = likelihood.interval(found.best, mean_log_sensitivity);
+  if (!found.log_sensitivity.high) return found;  // nor are there criteria
+  found.log_criterion = likelihood.interval(found.best, mean_log_criterion);
+  found.lapse = likelihood.interval(found.best, shared_lapse);
+  found.influences = likelihood.influences(found.best, mean_log_sensitivity);
+  if (found.lapse.high) return found;
+  for (const double rate : {0.0, 0.02, 0.05}) {
+    Parameters at = found.best.at;
+    at[shared_lapse] = rate;
+    const Maximum there = likelihood.climb(std::move(at), shared_lapse);
+    found.at_lapse.push_back({rate, z_75 * largest_g * std::exp(-there.at[mean_log_sensitivity])});
+  }
+  return found;
+}
+
 void put_population(MixedFit& found, const AnswersByPerson& people, double largest_g) {
-  PopulationLikelihood likelihood(on_scale(people, largest_g), std::nullopt);
-  Maximum best = likelihood.maximum();
-  const auto log_sensitivity = likelihood.interval(best, mean_log_sensitivity);
-  found.why = why_no_threshold(range_of(log_sensitivity, people, largest_g), {largest_g});
-  if (!log_sensitivity.high) return;  // nor are there criteria
-  const auto log_criterion = likelihood.interval(best, mean_log_criterion);
-  const auto lapse = likelihood.interval(best, shared_lapse);
-  found.log_likelihood = best.log_likelihood;
+  const PopulationEstimate population = estimate_population(people, largest_g);
+  const Parameters& at = population.best.at;
+  found.why =
+      why_no_threshold(range_of(population.log_sensitivity, people, largest_g), {largest_g});
+  if (!population.log_sensitivity.high) return;
+  found.log_likelihood = population.best.log_likelihood;
   for (const auto& [participant, answers] : people)
-    found.people[participant] = own_sensitivity(answers, largest_g, best.at);
-  found.indecision = figure(best.at[mean_log_criterion], log_criterion);
-  found.lapse = MixedFigure{best.at[shared_lapse], lapse.low.value_or(0), lapse.high};
+    found.people[participant] = own_sensitivity(answers, largest_g, at);
+  found.indecision = figure(at[mean_log_criterion], population.log_criterion);
+  found.lapse =
+      MixedFigure{at[shared_lapse], population.lapse.low.value_or(0), population.lapse.high};
   if (!found.identifiable()) return;
-  found.sensitivity = figure(best.at[mean_log_sensitivity], log_sensitivity, 1 / largest_g);
+  found.sensitivity = figure(at[mean_log_sensitivity], population.log_sensitivity, 1 / largest_g);
   found.threshold_75_g =
       MixedFigure{z_75 / found.sensitivity->value, z_75 / *found.sensitivity->high,
                   z_75 / *found.sensitivity->low};
-  found.sd_log_sensitivity = std::exp(best.at[log_sd_sensitivity]);
-  found.sd_log_indecision = std::exp(best.at[log_sd_criterion]);
-  found.correlation = std::tanh(best.at[arctanh_correlation]);
-  found.sd_bias = std::exp(best.at[log_sd_bias]);
-  put_influence(found, people, likelihood.influences(best, mean_log_sensitivity));
-  if (found.lapse->high) return;
-  for (const double rate : {0.0, 0.02, 0.05}) {
-    PopulationLikelihood fixed(on_scale(people, largest_g), rate);
-    found.at_lapse.push_back(
-        {rate, z_75 * largest_g * std::exp(-fixed.maximum().at[mean_log_sensitivity])});
-  }
+  found.sd_log_sensitivity = std::exp(at[log_sd_sensitivity]);
+  found.sd_log_indecision = std::exp(at[log_sd_criterion]);
+  found.correlation = std::tanh(at[arctanh_correlation]);
+  found.sd_bias = std::exp(at[log_sd_bias]);
+  found.at_lapse = population.at_lapse;
+  put_influence(found, people, population.influences);
 }
 }  // namespace
 

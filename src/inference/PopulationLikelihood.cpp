@@ -8,15 +8,14 @@
 
 namespace heft {
 
-PopulationLikelihood::PopulationLikelihood(const std::vector<std::vector<LevelAnswers>>& people,
-                                           std::optional<double> lapse)
+PopulationLikelihood::PopulationLikelihood(const std::vector<std::vector<LevelAnswers>>& people)
     : bounds_(n_population_parameters) {
   bounds_[mean_log_sensitivity] = {-9, 6};
   bounds_[mean_log_criterion] = {-7, 9};  // beyond all levels at any sensitivity
   bounds_[log_sd_sensitivity] = bounds_[log_sd_criterion] = {std::log(0.05), std::log(2)};
   bounds_[arctanh_correlation] = {-1.5, 1.5};
   bounds_[log_sd_bias] = {std::log(0.05), std::log(2)};
-  bounds_[shared_lapse] = {lapse.value_or(0), lapse.value_or(most_lapses)};
+  bounds_[shared_lapse] = {0, most_lapses};
   for (const std::vector<LevelAnswers>& answers : people) {
     people_.emplace_back(answers);
     for (const auto& [level, n] : answers) {
@@ -35,8 +34,7 @@ Parameters PopulationLikelihood::start(double log_sensitivity) const {
   const double none = std::clamp(n_none_ / n_trials_, 0.02, 0.98);
   const double tau = std::sqrt(1 + s * s * mean_square_level_) * normal_quantile((1 + none) / 2);
   Parameters at(n_population_parameters);
-  at << log_sensitivity, std::log(tau), std::log(0.4), std::log(0.4), 0, std::log(0.3),
-      std::clamp(0.02, bounds_[shared_lapse].low, bounds_[shared_lapse].high);
+  at << log_sensitivity, std::log(tau), std::log(0.4), std::log(0.4), 0, std::log(0.3), 0.02;
   return at;
 }
 

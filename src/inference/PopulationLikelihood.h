@@ -21,9 +21,7 @@ inline constexpr double most_lapses = 0.2;
 class PopulationLikelihood {
  public:
   /// @param people each one's answers by signed level, in units of the largest; not empty
-  /// @param lapse none: free in [0, most_lapses]
-  PopulationLikelihood(const std::vector<std::vector<LevelAnswers>>& people,
-                       std::optional<double> lapse);
+  explicit PopulationLikelihood(const std::vector<std::vector<LevelAnswers>>& people);
 
   /// From several starts.
   Maximum maximum();
