@@ -175,7 +175,8 @@ PopulationEstimate estimate_population(const AnswersByPerson& people, double lar
   for (const double rate : {0.0, 0.02, 0.05}) {
     Parameters at = found.best.at;
     at[shared_lapse] = rate;
-    const Maximum there = likelihood.climb(std::move(at), shared_lapse);
+    const Maximum near = likelihood.climb(std::move(at), shared_lapse);
+    const Maximum there = likelier(near, likelihood.maximum(rate));
     found.at_lapse.push_back({rate, z_75 * largest_g * std::exp(-there.at[mean_log_sensitivity])});
   }
   return found;

@@ -91,14 +91,15 @@ Maximum PopulationLikelihood::climb(Parameters from, Eigen::Index held) {
   return best;
 }
 
-Maximum PopulationLikelihood::maximum() {
+Maximum PopulationLikelihood::maximum(std::optional<double> lapse) {
   Maximum best{start(0), -infinity};
   for (const double log_sensitivity : {-0.5, 0.5, 1.5, 2.5, 3.5}) {
-    const Parameters at = start(log_sensitivity);
+    Parameters at = start(log_sensitivity);
+    at[shared_lapse] = lapse.value_or(at[shared_lapse]);
     center(at);
     best = likelier(best, {at, value(at, nullptr)});
   }
-  return climb(best.at);
+  return climb(best.at, lapse ? shared_lapse : -1);
 }
 
 namespace {

@@ -23,8 +23,8 @@ class PopulationLikelihood {
   /// @param people each one's answers by signed level, in units of the largest; not empty
   explicit PopulationLikelihood(const std::vector<std::vector<LevelAnswers>>& people);
 
-  /// From several starts.
-  Maximum maximum();
+  /// From several starts. @param lapse what the lapse rate is; none: free
+  Maximum maximum(std::optional<double> lapse = std::nullopt);
   /// The nearest maximum. @param held a parameter that keeps its value
   Maximum climb(Parameters from, Eigen::Index held = -1);
 
