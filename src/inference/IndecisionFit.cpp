@@ -34,15 +34,16 @@ std::array<LogShare, 3> log_shares(const LevelAnswers& answers, const Indecision
 }
 }  // namespace
 
-double level_log_likelihood(const IndecisionParameters& parameters, const LevelAnswers& answers) {
-  double sum = 0;
+double level_log_likelihood(const IndecisionParameters& parameters, const LevelAnswers& answers,
+                            double before) {
+  double sum = before;
   for (const LogShare& share : log_shares(answers, shares_of_given(parameters, answers)))
     sum += share.value;
   return sum;
 }
 
 LevelLikelihood level_likelihood(const IndecisionParameters& parameters,
-                                 const LevelAnswers& answers) {
+                                 const LevelAnswers& answers, double before) {
   const IndecisionShares p = shares_of_given(parameters, answers);
   const std::array<LogShare, 3> shares = log_shares(answers, p);
   const double felt = parameters.sensitivity * answers.level + parameters.bias;
@@ -55,7 +56,7 @@ LevelLikelihood level_likelihood(const IndecisionParameters& parameters,
   const std::array<Eigen::Vector3d, 3> slopes{Eigen::Vector3d(0, -to_down, by_lapse(p.reference)),
                                               Eigen::Vector3d(-to_up, to_down, by_lapse(p.none)),
                                               Eigen::Vector3d(to_up, 0, by_lapse(p.comparison))};
-  LevelLikelihood found;
+  LevelLikelihood found{before};
   for (std::size_t k = 0; k < shares.size(); ++k) {
     found.value += shares[k].value;
     if (shares[k].slope == 0) continue;  // not given
@@ -109,14 +110,14 @@ double log_likelihood(std::span<const LevelAnswers> levels, const Parameters& at
   const IndecisionParameters parameters{at[sensitivity], at[indecision], at[bias], at[lapse]};
   double sum = 0;
   if (!derivatives) {
-    for (const LevelAnswers& level : levels) sum += level_log_likelihood(parameters, level);
+    for (const LevelAnswers& level : levels) sum = level_log_likelihood(parameters, level, sum);
     return sum;
   }
   Eigen::Vector4d gradient = Eigen::Vector4d::Zero();
   Eigen::Matrix4d hessian = Eigen::Matrix4d::Zero();
   for (const LevelAnswers& answers : levels) {
-    const LevelLikelihood by = level_likelihood(parameters, answers);
-    sum += by.value;
+    const LevelLikelihood by = level_likelihood(parameters, answers, sum);
+    sum = by.value;
     const double x = answers.level;
     Eigen::Matrix<double, 4, 3> change;  // of up, down and the lapse rate with each parameter
     change << x, x, 0, -1, 1, 0, 1, 1, 0, 0, 0, 1;

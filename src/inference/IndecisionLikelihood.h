@@ -28,8 +28,12 @@ struct LevelLikelihood {
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
 };
 
-double level_log_likelihood(const IndecisionParameters& parameters, const LevelAnswers& answers);
+/// @param before log likelihood of the levels before, to which each answer's is added in turn: a
+/// sum
+///   in another order would differ in the last digits
+double level_log_likelihood(const IndecisionParameters& parameters, const LevelAnswers& answers,
+                            double before);
 LevelLikelihood level_likelihood(const IndecisionParameters& parameters,
-                                 const LevelAnswers& answers);
+                                 const LevelAnswers& answers, double before = 0);
 
 }  // namespace heft
