@@ -99,7 +99,8 @@ Maximum PopulationLikelihood::maximum(std::optional<double> lapse) {
     center(at);
     best = likelier(best, {at, value(at, nullptr)});
   }
-  return climb(best.at, lapse ? shared_lapse : -1);
+  const Eigen::Index held = lapse ? Eigen::Index{shared_lapse} : -1;
+  return climb(best.at, held);
 }
 
 namespace {
