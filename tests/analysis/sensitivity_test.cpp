@@ -231,7 +231,7 @@ Interval ratio_interval(const MixedFit& first, const MixedFit& second) {
 
 // At one reference 150 g, at the other 600 g, of people who keep their sensitivity or don't.
 TEST(CoverageOf, ThresholdRatios) {
-  const int studies = n_studies(20);
+  const int studies = n_studies(12);
   for (const bool same : {false, true})
     for (const double indecision : {1.0, 2.0}) {
       RandomStream stream(19, "ratios", same ? 1 : 0);
@@ -335,7 +335,7 @@ TEST(CoverageOf, NothingSeenGivesNoThreshold) {
   for (int n_people : {13, 40})
     for (bool papers : {false, true})
       for (bool is_coin : {false, true}) {
-        const Misled found = misled_by({.is_coin = is_coin}, papers, n_people, n_studies(4));
+        const Misled found = misled_by({.is_coin = is_coin}, papers, n_people, n_studies(2));
         std::cout << n_people << (is_coin ? " coins" : " people with only a criterion")
                   << (papers ? ", paper.toml: " : ", recommended.toml: ")
                   << found.thresholds_percent << " % thresholds, " << found.supported_percent
