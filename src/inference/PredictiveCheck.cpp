@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -25,27 +26,39 @@ struct Shares {
   }
 };
 
-// How values differ between people.
-struct Spread {
-  double sd = unknown, kurtosis = unknown;
-  explicit Spread(const std::vector<double>& values) {
-    double n = 0, sum = 0, square = 0, fourth = 0;
-    for (const double value : values)
-      if (std::isfinite(value)) {
-        n += 1;
-        sum += value;
-      }
-    if (n < 2) return;
-    for (const double value : values)
-      if (std::isfinite(value)) {
-        const double from_mean = value - sum / n;
-        square += from_mean * from_mean;
-        fourth += from_mean * from_mean * from_mean * from_mean;
-      }
-    sd = std::sqrt(square / (n - 1));
-    if (square > 0) kurtosis = n * fourth / (square * square);
+// Of people, or of studies, some have no figure.
+std::vector<double> known(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  return values;
+}
+
+double known_mean(const std::vector<double>& values) {
+  return mean(known(values)).value_or(unknown);
+}
+
+double known_sd(const std::vector<double>& values) {
+  return sample_sd(known(values)).value_or(unknown);
+}
+
+double known_kurtosis(const std::vector<double>& all) {
+  const std::vector<double> values = known(all);
+  const double center = mean(values).value_or(0);
+  double square = 0, fourth = 0;
+  for (const double value : values) {
+    const double from_mean = value - center;
+    square += from_mean * from_mean;
+    fourth += from_mean * from_mean * from_mean * from_mean;
   }
-};
+  return ratio(static_cast<double>(values.size()) * fourth, square * square);
+}
+
+// After a space; of a single range nothing.
+std::string range_name(std::span<const double> edges_g, std::size_t range) {
+  if (edges_g.empty()) return "";
+  if (range == 0) return fmt::format(" up to {:.0f} g", edges_g.front());
+  if (range == edges_g.size()) return fmt::format(" from {:.0f} g", edges_g.back());
+  return fmt::format(" from {:.0f} to {:.0f} g", edges_g[range - 1], edges_g[range]);
+}
 
 // Everything that is compared of one study, seen or predicted.
 class StudyTally {
@@ -106,49 +119,28 @@ class StudyTally {
       all.push_back(ratio(here.none, here.n));
       all.push_back(ratio(here.lighter, here.n));
     }
-    const Spread levels(levels_g_), nones(nones_), lighters(lighters_);
-    double jnd_g = 0, n_jnds = 0;
-    for (const double own_g : jnds_g_)
-      if (std::isfinite(own_g)) {
-        jnd_g += own_g;
-        n_jnds += 1;
-      }
-    all.insert(
-        all.end(),
-        {ratio(n_catch_none_, n_catch_), ratio(reversal_g_, n_reversals_), ratio(jnd_g, n_jnds),
-         n_trials_, levels.sd, levels.kurtosis, nones.sd, nones.kurtosis, lighters.sd,
-         lighters.kurtosis, Spread(jnds_g_).sd, ratio(drift_g_, n_drifts_),
-         ratio(second_half_.none, second_half_.n) - ratio(first_half_.none, first_half_.n),
-         ratio(second_half_.lighter, second_half_.n) - ratio(first_half_.lighter, first_half_.n)});
+    for (const auto& [name, value] : of_all_levels) all.push_back(value(*this));
     return all;
   }
+  /// Of these, in their order.
   static std::vector<std::string> names(std::span<const double> edges_g) {
     std::vector<std::string> all;
     for (std::size_t i = 0; i <= edges_g.size(); ++i) {
-      const std::string where = i == 0                ? fmt::format("up to {:.0f} g", edges_g[0])
-                                : i == edges_g.size() ? fmt::format("from {:.0f} g", edges_g[i - 1])
-                                                      : fmt::format("from {:.0f} to {:.0f} g",
-                                                                    edges_g[i - 1], edges_g[i]);
-      all.push_back("share of \"no difference\" " + where);
-      all.push_back("share of incorrect choices " + where);
+      const std::string where = range_name(edges_g, i);
+      all.push_back("share of \"no difference\"" + where);
+      all.push_back("share of incorrect choices" + where);
     }
-    all.insert(
-        all.end(),
-        {"share of \"no difference\" in catch trials", "mean level of reversals (g)",
-         "mean JND by the paper's rule (g)", "number of trials",
-         "SD between people of their mean level (g)", "kurtosis between people of their mean level",
-         "SD between people of their share of \"no difference\"",
-         "kurtosis between people of their share of \"no difference\"",
-         "SD between people of the share of incorrect ones among their choices",
-         "kurtosis between people of the share of incorrect ones among their choices",
-         "SD between people of their JND (g)",
-         "change of level from the first to the second half of a staircase (g)",
-         "change of the share of \"no difference\" from the first to the second half",
-         "change of the share of incorrect choices from the first to the second half"});
+    for (const auto& [name, value] : of_all_levels) all.emplace_back(name);
     return all;
   }
 
  private:
+  struct OfAllLevels {
+    std::string_view name;
+    double (*value)(const StudyTally& study);
+  };
+  static const std::array<OfAllLevels, 14> of_all_levels;
+
   std::size_t level_range(double level_g) const {
     return static_cast<std::size_t>(std::ranges::lower_bound(edges_g_, level_g) - edges_g_.begin());
   }
@@ -161,6 +153,42 @@ class StudyTally {
   double n_catch_ = 0, n_catch_none_ = 0;
   std::vector<double> levels_g_, nones_, lighters_, jnds_g_;  // by person
 };
+
+constexpr std::array<StudyTally::OfAllLevels, 14> StudyTally::of_all_levels{{
+    {"share of \"no difference\" in catch trials",
+     [](const StudyTally& of) { return ratio(of.n_catch_none_, of.n_catch_); }},
+    {"mean level of reversals (g)",
+     [](const StudyTally& of) { return ratio(of.reversal_g_, of.n_reversals_); }},
+    {"mean JND by the paper's rule (g)",
+     [](const StudyTally& of) { return known_mean(of.jnds_g_); }},
+    {"number of trials", [](const StudyTally& of) { return of.n_trials_; }},
+    {"SD between people of their mean level (g)",
+     [](const StudyTally& of) { return known_sd(of.levels_g_); }},
+    {"kurtosis between people of their mean level",
+     [](const StudyTally& of) { return known_kurtosis(of.levels_g_); }},
+    {"SD between people of their share of \"no difference\"",
+     [](const StudyTally& of) { return known_sd(of.nones_); }},
+    {"kurtosis between people of their share of \"no difference\"",
+     [](const StudyTally& of) { return known_kurtosis(of.nones_); }},
+    {"SD between people of the share of incorrect ones among their choices",
+     [](const StudyTally& of) { return known_sd(of.lighters_); }},
+    {"kurtosis between people of the share of incorrect ones among their choices",
+     [](const StudyTally& of) { return known_kurtosis(of.lighters_); }},
+    {"SD between people of their JND (g)",
+     [](const StudyTally& of) { return known_sd(of.jnds_g_); }},
+    {"change of level from the first to the second half of a staircase (g)",
+     [](const StudyTally& of) { return ratio(of.drift_g_, of.n_drifts_); }},
+    {"change of the share of \"no difference\" from the first to the second half",
+     [](const StudyTally& of) {
+       return ratio(of.second_half_.none, of.second_half_.n) -
+              ratio(of.first_half_.none, of.first_half_.n);
+     }},
+    {"change of the share of incorrect choices from the first to the second half",
+     [](const StudyTally& of) {
+       return ratio(of.second_half_.lighter, of.second_half_.n) -
+              ratio(of.first_half_.lighter, of.first_half_.n);
+     }},
+}};
 
 // A staircase from its first trial on, with choices from elsewhere.
 class Walk {
@@ -239,19 +267,18 @@ class SimulatedStudy {
   IndecisionParameters person_;
 };
 
+// Of a figure over studies.
 struct Distribution {
   double mean = unknown, sd = unknown, low = unknown, high = unknown;
-  explicit Distribution(std::vector<double> values) {
-    std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  explicit Distribution(const std::vector<double>& of_studies) {
+    std::vector<double> values = known(of_studies);
     if (values.size() < 20) return;
     std::ranges::sort(values);
-    const auto n = static_cast<double>(values.size());
     mean = *heft::mean(values);
-    double square = 0;
-    for (const double value : values) square += (value - mean) * (value - mean);
-    sd = std::sqrt(square / (n - 1));
+    sd = *sample_sd(values);
     const auto at = [&](double share) {
-      return values[static_cast<std::size_t>(std::lround(share * (n - 1)))];
+      const auto last = static_cast<double>(values.size() - 1);
+      return values[static_cast<std::size_t>(std::lround(share * last))];
     };
     low = at(0.025);
     high = at(0.975);
@@ -263,7 +290,7 @@ std::optional<PredictedShares::Band> band(const std::vector<std::vector<Shares>>
   std::vector<double> shares;
   for (const auto& by_level : studies)
     shares.push_back(ratio(by_level[place].*count, by_level[place].n));
-  const Distribution of(std::move(shares));
+  const Distribution of(shares);
   if (!std::isfinite(of.mean)) return std::nullopt;
   return PredictedShares::Band{of.mean, of.low, of.high};
 }

@@ -1,6 +1,7 @@
-// Predictive checks: a study that follows the model passes, one that does not is told so.
+// Predictive checks: a study that follows the model passes, one that does not is flagged.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -109,20 +110,20 @@ TEST(PredictiveCheck, TellsAModelThatHoldsFromOthers) {
   for (const auto& [truth, name, least, most] :
        {std::tuple{Truth::model, "the model", 0.0, 0.05},
         {Truth::drift, "a criterion that grows sevenfold", 0.8, 1.0}}) {
-    int n_told = 0;
+    int n_flagged = 0;
     for (int i = 0; i < studies; ++i) {
       const auto people = study(truth, 40, 500 + static_cast<std::uint64_t>(i));
       const MixedFit fit = fitted(people);
       ASSERT_TRUE(fit.identifiable()) << fit.why;
       const PredictiveCheck check = check_predictions(fit, people, edges_g);
-      n_told += check.p < 0.05 ? 1 : 0;
+      n_flagged += check.p < 0.05 ? 1 : 0;
       std::cout << name << ": p " << check.p << ", " << check.farthest().name << " "
                 << check.farthest().deviation() << " SD\n";
     }
-    std::cout << name << ": " << 100.0 * n_told / studies << " % told\n";
+    std::cout << name << ": " << 100.0 * n_flagged / studies << " % flagged\n";
     const double chance = 3 * std::sqrt(0.05 * 0.95 / studies);
-    EXPECT_GE(n_told, (least - chance) * studies) << name;
-    EXPECT_LE(n_told, (most + chance) * studies) << name;
+    EXPECT_GE(n_flagged, (least - chance) * studies) << name;
+    EXPECT_LE(n_flagged, (most + chance) * studies) << name;
   }
 }
 
@@ -132,6 +133,24 @@ TEST(PredictiveCheck, RunsStaircasesThatDidNotEndAsLong) {
     for (StaircaseRun& run : person.staircases) run.choices.resize(5);
   const PredictiveCheck check = check_predictions(fit_of_truth(), people, edges_g);
   for (const PredictedFigure& figure : check.figures) EXPECT_NE(figure.name, "number of trials");
+}
+
+// All levels in one range, as where every trial had the same difference.
+TEST(PredictiveCheck, NeedsNoEdges) {
+  const auto people = study(Truth::model, 6, 9);
+  const PredictiveCheck check = check_predictions(fit_of_truth(), people, {});
+  EXPECT_EQ(check.by_level.size(), 1u);
+  EXPECT_EQ(check.figures.at(0).name, "share of \"no difference\"");
+}
+
+TEST(PredictiveCheck, NamesRangesByTheirEdges) {
+  const auto figures =
+      check_predictions(fit_of_truth(), study(Truth::model, 6, 9), std::vector{40.0, 90.0}).figures;
+  const auto is_named = [&](const std::string& name) {
+    return std::ranges::count(figures, name, &PredictedFigure::name) == 1;
+  };
+  for (const char* where : {"up to 40 g", "from 40 to 90 g", "from 90 g"})
+    EXPECT_TRUE(is_named(std::string("share of \"no difference\" ") + where)) << where;
 }
 
 TEST(PredictiveCheck, IsTheSameForTheSameSeed) {
