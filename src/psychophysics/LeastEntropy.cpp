@@ -137,8 +137,7 @@ ConfigMistakes PsiConfig::check() const {
 
 LeastEntropy::LeastEntropy(const LeastEntropyConfig& config, std::string_view method)
     : method_(method),
-      stop_trials_(config.stop_trials),
-      stop_ci_width_(config.stop_ci_width),
+      stop_{config.stop_trials, config.stop_ci_width},
       posterior_(LikelihoodTable::shared(config.space())),
       evidence_(config.model().n_outcomes()),
       first_level_(config.start ? *config.start : posterior_.best_level()),
@@ -155,12 +154,8 @@ Update LeastEntropy::respond(const Response& response, double shown) {
   ++n_trials_;
   posterior_.update(shown, response);
   evidence_.add(posterior_.table().space().model.outcomes_of(response));
-  if (is_precise())
-    finish_ = StopReason::precision;
-  else if (n_trials_ >= stop_trials_)
-    finish_ = StopReason::trials;
-  else
-    next_level_ = posterior_.best_level();
+  finish_ = stop_.after(n_trials_, [this] { return estimate(); });
+  if (!finish_) next_level_ = posterior_.best_level();
   return {std::nullopt, finish_};
 }
 
@@ -177,13 +172,6 @@ Estimate LeastEntropy::estimate() const {
   estimate.method = method_;
   estimate.n_trials = n_trials_;
   return estimate;
-}
-
-// An estimate that is not identifiable is not precise, however narrow its posterior.
-bool LeastEntropy::is_precise() const {
-  if (!stop_ci_width_) return false;
-  const Estimate now = estimate();
-  return now.value && *now.high - *now.low <= *stop_ci_width_;
 }
 
 std::vector<Estimate> LeastEntropy::estimates() const {
@@ -203,7 +191,7 @@ std::vector<ParameterPosterior> LeastEntropy::posterior() const {
 }
 
 std::optional<int> LeastEntropy::planned_trials() const {
-  return stop_ci_width_ ? std::nullopt : std::optional(stop_trials_);
+  return stop_.planned_trials();
 }
 
 std::vector<double> LeastEntropy::planned_levels() const {

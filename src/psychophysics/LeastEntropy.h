@@ -114,7 +114,7 @@ class LeastEntropy {
   std::vector<Estimate> estimates() const;
   std::vector<ParameterPosterior> posterior() const;
   std::optional<int> planned_trials() const;
-  int most_trials() const { return stop_trials_; }
+  int most_trials() const { return stop_.trials; }
   std::vector<double> planned_levels() const;
 
   const PosteriorGrid& grid() const { return posterior_; }
@@ -125,11 +125,9 @@ class LeastEntropy {
  private:
   Marginal threshold() const;
   Estimate estimate() const;
-  bool is_precise() const;
 
   std::string method_;
-  int stop_trials_ = 0;
-  std::optional<double> stop_ci_width_;
+  PosteriorStop stop_;
   PosteriorGrid posterior_;
   LevelEvidence evidence_;
   double first_level_, next_level_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace heft {
@@ -89,6 +90,10 @@ double LevelEvidence::for_model(double log_model) const {
   const bool all_same =
       *std::max_element(counts_.begin(), counts_.end()) == counts_[0] + counts_[1] + counts_[2];
   return all_same ? 0 : log_model - log_constant_;
+}
+
+double finite_log(double p) {
+  return std::log(std::max(p, std::numeric_limits<double>::min()));
 }
 
 Estimate threshold_estimate(const Marginal& threshold, double log_bayes_factor) {

@@ -69,6 +69,32 @@ class LevelEvidence {
   double log_constant_ = 0;
 };
 
+/// When a Bayesian procedure ends: after a number of trials, or when the 95 % interval of its
+/// estimate is narrow enough. An estimate that is not identifiable is not precise, however narrow
+/// its posterior.
+struct PosteriorStop {
+  int trials = 0;
+  std::optional<double> ci_width{};
+
+  /// @param estimate made where a width ends the procedure
+  template <typename MakeEstimate>
+  std::optional<StopReason> after(int n_trials, const MakeEstimate& estimate) const {
+    if (ci_width) {
+      const Estimate now = estimate();
+      if (now.value && *now.high - *now.low <= *ci_width) return StopReason::precision;
+    }
+    if (n_trials >= trials) return StopReason::trials;
+    return std::nullopt;
+  }
+  std::optional<int> planned_trials() const {
+    return ci_width ? std::nullopt : std::optional(trials);
+  }
+};
+
+/// Log of a probability, finite: an impossible response counts against a point of a grid without
+/// excluding it for ever.
+double finite_log(double p);
+
 /// Posterior mean and 95 % interval of a threshold. Without a value, as Censored::indeterminate,
 /// unless the responses depend on the level: a Bayes factor of 3 ("substantial", Jeffreys 1961).
 /// Where the posterior reaches an end of the grid, only the other end of the interval is known.

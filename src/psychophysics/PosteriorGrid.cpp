@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <numeric>
 
@@ -13,11 +12,6 @@ constexpr std::size_t n_parameters = 4;
 
 double times_log(double p) {
   return p > 0 ? p * std::log(p) : 0;
-}
-
-// Finite, so that an impossible response counts against a point without excluding it for ever.
-double log_of(double p) {
-  return std::log(std::max(p, std::numeric_limits<double>::min()));
 }
 
 // Each level has its own sum, so that the compiler can add several levels at a time.
@@ -103,7 +97,7 @@ std::vector<double> LikelihoodTable::log_likelihood(double level, const Response
     double p = 0;
     for (std::size_t k = 0; k < outcomes.size(); ++k)
       if (outcomes[k]) p += shares[0][k];
-    log_likelihood[i] = log_of(p);
+    log_likelihood[i] = finite_log(p);
   });
   return log_likelihood;
 }

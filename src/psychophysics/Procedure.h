@@ -84,6 +84,7 @@ class Procedure {
   /// Levels known before the first response: all of a fixed kind, the first of an adaptive one.
   std::vector<double> planned_levels() const { return kind_->planned_levels(); }
 
+  bool is_bayesian() const { return kind_->is_bayesian(); }
   /// Of the parameters of a Bayesian kind, at any time; empty for the others.
   std::vector<ParameterPosterior> posterior() const { return kind_->posterior(); }
 
@@ -105,6 +106,7 @@ class Procedure {
     virtual std::optional<int> planned_trials() const = 0;
     virtual std::optional<int> most_trials() const = 0;
     virtual std::vector<double> planned_levels() const = 0;
+    virtual bool is_bayesian() const = 0;
     virtual std::vector<ParameterPosterior> posterior() const = 0;
   };
 
@@ -129,6 +131,11 @@ class Procedure {
     std::vector<double> planned_levels() const override {
       if constexpr (requires { kind.planned_levels(); }) return kind.planned_levels();
       return {};
+    }
+    bool is_bayesian() const override {
+      return requires {
+        kind.posterior();
+      };
     }
     std::vector<ParameterPosterior> posterior() const override {
       if constexpr (requires { kind.posterior(); }) return kind.posterior();

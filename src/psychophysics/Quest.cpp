@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 
 namespace heft {
 
@@ -122,12 +121,9 @@ Quest::Quest(QuestConfig config)
       threshold_{grid_of(config_), log_weights_.weights()} {
   const std::vector<double> positive = shares(config_, shift_to_p_threshold(config_));
   best_order_ = best_quantile_order(positive.front(), positive.back());
-  const auto log_of = [](double p) {
-    return std::log(std::max(p, std::numeric_limits<double>::min()));
-  };
   for (const double p : positive) {
-    log_likelihood_[0].push_back(log_of(1 - p));
-    log_likelihood_[1].push_back(log_of(p));
+    log_likelihood_[0].push_back(finite_log(1 - p));
+    log_likelihood_[1].push_back(finite_log(p));
   }
   first_level_ = next_level_ = config_.start ? *config_.start : placed();
 }
@@ -145,15 +141,8 @@ Update Quest::respond(const Response& response, double shown) {
   log_weights_.add(at_thresholds);
   threshold_.weights = log_weights_.weights();
   evidence_.add({!response.positive, response.positive, false});
-  const Estimate now = estimate();
-  const bool is_precise =
-      config_.stop_ci_width && now.value && *now.high - *now.low <= *config_.stop_ci_width;
-  if (is_precise)
-    finish_ = StopReason::precision;
-  else if (n_trials_ >= config_.stop_trials)
-    finish_ = StopReason::trials;
-  else
-    next_level_ = placed();
+  finish_ = stop().after(n_trials_, [this] { return estimate(); });
+  if (!finish_) next_level_ = placed();
   return {std::nullopt, finish_};
 }
 
@@ -192,7 +181,7 @@ std::vector<ParameterPosterior> Quest::posterior() const {
 }
 
 std::optional<int> Quest::planned_trials() const {
-  return config_.stop_ci_width ? std::nullopt : std::optional(config_.stop_trials);
+  return stop().planned_trials();
 }
 
 std::vector<double> Quest::planned_levels() const {

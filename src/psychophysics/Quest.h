@@ -99,6 +99,7 @@ class Quest {
 
  private:
   double placed() const;
+  PosteriorStop stop() const { return {config_.stop_trials, config_.stop_ci_width}; }
   Estimate estimate() const;
 
   QuestConfig config_;

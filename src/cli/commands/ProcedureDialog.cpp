@@ -83,7 +83,7 @@ std::string json_number(const std::optional<double>& number) {
 std::string finished_event(const Procedure& staircase, StopReason reason) {
   const Estimate estimate = staircase.estimates().front();
   std::string bayesian;
-  if (!staircase.posterior().empty())
+  if (staircase.is_bayesian())
     bayesian = fmt::format(R"("sd":{},"censored":{},)", json_number(estimate.sd),
                            json_text(name_of(estimate.censored)));
   return fmt::format(
@@ -129,9 +129,8 @@ void ProcedureDialog::respond(const AnswerLine& answer) {
   const Update update = staircase.respond(answer.response, answer.level.value_or(level_));
   previous_ = current_;
   if (update.reversal) write(reversal_event(trial_, staircase.name(), *update.reversal));
-  if (with_posterior_)
-    if (const auto posterior = staircase.posterior(); !posterior.empty())
-      write(posterior_event(trial_, staircase.name(), posterior));
+  if (with_posterior_ && staircase.is_bayesian())
+    write(posterior_event(trial_, staircase.name(), staircase.posterior()));
   if (update.finish) write(finished_event(staircase, *update.finish));
 }
 
@@ -142,7 +141,7 @@ void ProcedureDialog::next_trial() {
   if (!current_) return write(R"({"event":"done"})");
   const Procedure& staircase = procedures_.staircases[*current_];
   level_ = staircase.next_level(level_stream(procedures_.seed, staircase.name()));
-  const bool recommended = with_posterior_ && !staircase.posterior().empty();
+  const bool recommended = with_posterior_ && staircase.is_bayesian();
   write(trial_event(trial_, staircase.name(), level_, recommended));
 }
 
