@@ -129,7 +129,7 @@ class Drawing {
 
   PlotPanel against_x(PlotPanel panel, const std::vector<Drawn>& all) const {
     const bool joined = spec_.shape == ChartShape::lines;
-    const bool side_by_side = !joined && !spec_.bands;
+    const bool side_by_side = !joined && !spec_.has_bands();
     const XAxis axis(all, spec_.x, has_axes("logscale x"));
     panel.axes += axis.axes();
     std::string published;
@@ -184,7 +184,7 @@ class Drawing {
   // Points beside their mean, arrows where an estimate is censored; of lines a thin one each.
   void add_participants(PlotPanel& panel, const XAxis& axis, const Drawn& drawn,
                         double aside) const {
-    if (spec_.shape == ChartShape::lines || spec_.bands) {
+    if (spec_.shape == ChartShape::lines || spec_.has_bands()) {
       std::map<std::string, std::string> lines;
       for (const StudyEstimate* one : drawn.participants)
         lines[one->participant] += row_of(axis.at(*one), *one);

@@ -1,6 +1,7 @@
 // Charts as declarations: what is drawn against what. ChartShapes.cpp draws each shape.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,7 +47,11 @@ struct ChartSpec {
   bool diagonal = false;      ///< where x equals y
   std::string x_label{}, y_label{};
   std::string axes{};  ///< gnuplot's further lines about the axes
-  bool bands = false;  ///< behind series; each participant is a thin line
+
+  /// Whether a series has a band; then each participant is a thin line.
+  bool has_bands() const {
+    return std::ranges::any_of(series, [](const ChartSeries& one) { return !one.band.empty(); });
+  }
 };
 
 /// None to draw: an empty script. @param of_participants the section's

@@ -189,8 +189,7 @@ class CurveSection final : public Section {
          .participants = true,
          .x_label = "difference (g)",
          .y_label = "% of trials",
-         .axes = "set yrange [0:100]\n",
-         .bands = true},
+         .axes = "set yrange [0:100]\n"},
         {.name = "hits_and_false_alarms",
          .title = "Hits against false alarms",
          .caption = "Each participant's percentage of \"different\" in comparisons with a "
