@@ -1,5 +1,6 @@
 // The likelihood of answers in the indecision model at one level, with its derivatives: what the
 // fit of one file (IndecisionFit.cpp) and the mixed model over people (MixedIndecision.h) share.
+// Implemented in IndecisionFit.cpp.
 #pragma once
 
 #include <Eigen/Core>

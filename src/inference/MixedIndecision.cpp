@@ -141,16 +141,21 @@ SensitivityRange range_of(const PopulationLikelihood::ProfileInterval& logs,
   return {std::nullopt, per_g(logs.high)};
 }
 
+// Of the infinitesimal jackknife.
+double jackknife_error(const std::vector<double>& influences) {
+  const auto n = static_cast<double>(influences.size());
+  double square = 0;
+  for (const double influence : influences) square += influence * influence;
+  return std::sqrt(square * n / (n - 1));
+}
+
 // Scaled to the width of the profile interval: the jackknife's own standard error is too small
 // where people have few trials (its interval covered 88 to 94 %).
 void put_influence(MixedFit& found, const AnswersByPerson& people,
                    const std::vector<double>& influences) {
-  const double n = found.n;
-  double square = 0;
-  for (const double influence : influences) square += influence * influence;
   const double half_width = std::log(*found.threshold_75_g->high / *found.threshold_75_g->low) / 2;
-  const double se = half_width / student_t_quantile(n - 1);
-  const double scale = -se / std::sqrt(square * n / (n - 1));  // of the threshold, not sensitivity
+  const double se = half_width / student_t_quantile(found.n - 1);
+  const double scale = -se / jackknife_error(influences);  // of the threshold, not sensitivity
   for (std::size_t i = 0; const auto& [participant, answers] : people)
     found.influence[participant] = scale * influences[i++];
 }
@@ -229,6 +234,11 @@ MixedFit fit_mixed_indecision(AnswersByPerson people) {
   return found;
 }
 
+const OwnSensitivity* MixedFit::own(const std::string& participant) const {
+  const auto found = people.find(participant);
+  return found == people.end() ? nullptr : &found->second;
+}
+
 Fit MixedFit::summary() const {
   Fit fit{{}, std::nullopt, n_trials, 0, why};
   if (sensitivity || indecision) fit.log_likelihood = log_likelihood;
@@ -285,11 +295,10 @@ ThresholdContrast threshold_contrast(std::span<const MixedFit* const> fits,
     for (const auto& [participant, own] : fits[i]->influence)
       influence[participant] += weights[i] * own;
   }
-  const double n = static_cast<double>(influence.size());
-  double sum = 0;
-  for (const auto& [participant, own] : influence) sum += own * own;
   contrast.n = static_cast<int>(influence.size());
-  contrast.standard_error = std::sqrt(sum * n / (n - 1));
+  std::vector<double> of_people;
+  for (const auto& [participant, own] : influence) of_people.push_back(own);
+  contrast.standard_error = jackknife_error(of_people);
   return contrast;
 }
 

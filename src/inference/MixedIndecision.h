@@ -74,6 +74,8 @@ struct MixedFit {
   std::map<std::string, double> influence;
 
   bool identifiable() const { return why.empty(); }
+  /// Null: too few people to draw on.
+  const OwnSensitivity* own(const std::string& participant) const;
   /// sensitivity, indecision, lapse, sd_log_sensitivity, sd_log_indecision, correlation, sd_bias
   /// and threshold_75_g, without standard errors.
   Fit summary() const;

@@ -84,7 +84,7 @@ void put_model_fit(Estimates& all, std::span<const ReferenceSensitivity> rows,
                    const ComparisonTrials& trials, StaircaseRuns& runs) {
   for (const ReferenceSensitivity& row : rows) {
     const std::vector<PersonRuns> people = runs.take(row.compared);
-    if (!row.fit.identifiable() || row.fit.n < least_people || people.empty()) continue;
+    if (!row.is_of_people() || people.empty()) continue;
     const Bins bins = binned(pointers_to(trials.by_compared().at(row.compared)));
     const PredictiveCheck check = check_predictions(row.fit, people, edges_between(bins));
     if (check.figures.empty()) continue;

@@ -17,6 +17,9 @@ struct ReferenceSensitivity {
   Compared compared;
   MixedFit fit;
   bool as_published = false;  ///< compared at a reference and in the technique of the paper
+
+  /// Whether it has a threshold of several people.
+  bool is_of_people() const { return fit.identifiable() && fit.n >= least_people; }
 };
 
 /// By reference, lightest first, and condition; participants' sessions together.

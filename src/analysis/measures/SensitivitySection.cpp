@@ -73,9 +73,7 @@ using Key = std::pair<Compared, std::string>;
 // Null: too few people to draw on.
 const OwnSensitivity* own_of(const Key& key, const std::vector<ReferenceSensitivity>& all) {
   const auto reference = std::ranges::find(all, key.first, &ReferenceSensitivity::compared);
-  if (reference == all.end()) return nullptr;
-  const auto own = reference->fit.people.find(key.second);
-  return own == reference->fit.people.end() ? nullptr : &own->second;
+  return reference == all.end() ? nullptr : reference->fit.own(key.second);
 }
 
 using Results = std::vector<const StaircaseResult*>;

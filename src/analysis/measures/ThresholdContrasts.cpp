@@ -27,10 +27,6 @@ constexpr Measure smallest_exponent{
 
 using Rows = std::vector<const ReferenceSensitivity*>;
 
-bool comparable(const ReferenceSensitivity& row) {
-  return row.fit.identifiable() && row.fit.n >= least_people;
-}
-
 StudyEstimate estimate_at(const Measure& measure, const ReferenceSensitivity& row, int n) {
   StudyEstimate estimate{&measure, "comparison", row.compared.condition};
   estimate.reference_g = row.compared.reference_g;
@@ -59,7 +55,7 @@ void put_exponent(Estimates& all, const Rows& rows) {
   std::vector<const MixedFit*> fits;
   std::vector<double> references_g;
   for (const ReferenceSensitivity* row : rows)
-    if (comparable(*row) && row->compared.reference_g > 0) {
+    if (row->is_of_people() && row->compared.reference_g > 0) {
       fits.push_back(&row->fit);
       references_g.push_back(row->compared.reference_g);
     }
@@ -85,7 +81,7 @@ void put_threshold_contrasts(Estimates& all, std::span<const ReferenceSensitivit
   }
   for (const auto& [condition, of_condition] : by_condition) {
     for (std::size_t i = 1; i < of_condition.size(); ++i)
-      if (comparable(*of_condition[i - 1]) && comparable(*of_condition[i]))
+      if (of_condition[i - 1]->is_of_people() && of_condition[i]->is_of_people())
         put_ratio(all, ratio, *of_condition[i], *of_condition[i - 1],
                   at("lighter_reference_g", of_condition[i - 1]->compared.reference_g));
     put_exponent(all, of_condition);
@@ -93,7 +89,7 @@ void put_threshold_contrasts(Estimates& all, std::span<const ReferenceSensitivit
   for (const auto& [reference_g, of_reference] : by_reference)
     for (std::size_t i = 0; i < of_reference.size(); ++i)
       for (std::size_t k = i + 1; k < of_reference.size(); ++k)
-        if (comparable(*of_reference[i]) && comparable(*of_reference[k]))
+        if (of_reference[i]->is_of_people() && of_reference[k]->is_of_people())
           put_ratio(all, condition_ratio, *of_reference[k], *of_reference[i],
                     {"other_condition", of_reference[i]->compared.condition});
 }

@@ -62,11 +62,8 @@ NamedFit fit_people(const AnswerGroup& group) {
   const MixedFit mixed = fit_mixed_indecision(group.people);
   NamedFit named{group.name, mixed.summary(), {}};
   named.fit.n_levels = group.answers.size();
-  for (const auto& [person, answers] : group.people) {
-    const auto own = mixed.people.find(person);
-    named.people[person] =
-        own_threshold(answers, own == mixed.people.end() ? nullptr : &own->second);
-  }
+  for (const auto& [person, answers] : group.people)
+    named.people[person] = own_threshold(answers, mixed.own(person));
   return named;
 }
 
