@@ -1,7 +1,7 @@
 """Exports beside other programs, where these are installed: the real bids-validator (npm) accepts
 the BIDS dataset; R with lme4 and ordinal runs analysis.R, and pandas reads the CSV, and both find
 the figures of `heft analyse` and `heft fit`. Debian: r-cran-lme4, r-cran-ordinal, python3-pandas.
-What is not installed is told, and the test exits 77 if nothing was compared.
+What is not installed is printed, and the test exits 77 if nothing was compared.
 
 Run: python3 tests/studies/export_against_others.py PATH_TO_HEFT [PARTICIPANTS]
 """
@@ -87,7 +87,7 @@ class Comparison:
             self.n_wrong += 1
             print(f"  {where}: {found}, expected {expected}")
 
-    def told(self, where, n_before):
+    def printed(self, where, n_before):
         print(f"{where}: {self.n_compared - n_before} figures, {self.n_wrong} differ")
 
     def validated(self):
@@ -150,12 +150,12 @@ class Comparison:
                           one["mass_g"] == float(mass)]
                 self.expect(row["figure"], found, one[name], 1e-9)
             elif kind == "jnd":
-                (told,) = [one for one in summary["jnd"] if one["condition"] == condition and
+                (printed,) = [one for one in summary["jnd"] if one["condition"] == condition and
                            one["reference_g"] == float(reference)]
                 for name in path[:-1]:  # from_above, from_below
-                    told = told[name]
-                relative = 1e-5 if told["summary"] == "log_normal_mean" else 1e-9
-                self.expect((row["figure"], condition, reference), found, told[path[-1]], relative)
+                    printed = printed[name]
+                relative = 1e-5 if printed["summary"] == "log_normal_mean" else 1e-9
+                self.expect((row["figure"], condition, reference), found, printed[path[-1]], relative)
             elif kind == "indecision":
                 fit = fits[f"{condition} {float(reference):g} g"]
                 if path[0] == "log_likelihood":
@@ -168,7 +168,7 @@ class Comparison:
                     scale = max(abs(parameter["se"]), abs(found))
                     self.expect((row["figure"], condition, reference), (found - parameter["value"])
                                 / scale + 1, 1, 1e-3)
-        self.told(f"R {protocol}", n_before)
+        self.printed(f"R {protocol}", n_before)
         return True
 
     def pandas(self, protocol):
@@ -187,19 +187,19 @@ class Comparison:
             kind, *where = name.split()
             kind, field = kind.split(".")[0], kind.split(".")[-1]
             if kind in ("jnd", "sensitivity"):
-                (told,) = [one for one in summary[kind] if one["condition"] == where[0] and
+                (printed,) = [one for one in summary[kind] if one["condition"] == where[0] and
                            one["reference_g"] == float(where[1])]
-                told = {**told, "mean_trials": told["trials"]["mean"]} if kind == "jnd" else told
-                self.expect(name, found, told[field])
+                printed = {**printed, "mean_trials": printed["trials"]["mean"]} if kind == "jnd" else printed
+                self.expect(name, found, printed[field])
             elif kind == "false_alarm":
-                (told,) = [one for one in summary["comparison"]["by_reference"]
+                (printed,) = [one for one in summary["comparison"]["by_reference"]
                            if one["reference_g"] == float(where[1])]
-                self.expect(name, found, told["false_alarm"][field])
+                self.expect(name, found, printed["false_alarm"][field])
             elif kind == "response_times":
-                (told,) = [one for one in summary["response_times"]
+                (printed,) = [one for one in summary["response_times"]
                            if [one["task"], one["condition"]] == where]
-                self.expect(name, found, told[field])
-        self.told(f"pandas {protocol}", n_before)
+                self.expect(name, found, printed[field])
+        self.printed(f"pandas {protocol}", n_before)
         return True
 
 

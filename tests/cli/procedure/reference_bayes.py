@@ -1,7 +1,7 @@
 """Bayesian procedures written from their papers in plain Python, to compare with `heft procedure`.
 
 QUEST: Watson & Pelli 1983, by the formulas of QuestCreate, QuestUpdate and QuestQuantile.
-QUEST+ and Psi: Watson 2017; Kontsevich & Tyler 1999; Prins 2013. Every probability is computed anew
+QUEST+ and Psi: Watson 2017; Kontsevich & Tyler 1999; Prins 2013. Every probability is computed again
 from all trials, and every entropy from the definition.
 """
 import bisect
