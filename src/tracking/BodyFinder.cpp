@@ -75,12 +75,12 @@ std::optional<BodyFit> BodyFinder::find(const Image& gray, const std::vector<Det
   const BiasPrior bias = prior_for(settings_, known.bias);
   std::vector<bool> done(body_.tags.size(), false);
   tone_ = {};
-  const auto [clear, rough] =
+  const Measured measured =
       timed(times.refine_s, [&] { return measure_detected(gray, detected, done); });
   n_foreign_ = 0;
-  auto fit = timed(times.pose_s, [&] { return fit_own(clear, known, bias); });
+  auto fit = timed(times.pose_s, [&] { return fit_own(measured.clear, known, bias); });
   // Tags whose edges cannot be measured (a finger on them, no white margin) give a rough pose.
-  if (!fit) fit = timed(times.pose_s, [&] { return fit_own(rough, known, bias); });
+  if (!fit) fit = timed(times.pose_s, [&] { return fit_own(measured.rough, known, bias); });
   if (!fit || !settings_.refine_edges) return fit;
   return with_others(gray, *fit, done, bias, times);
 }
