@@ -61,6 +61,15 @@ Option add_responder(Command& command, std::optional<WhoAnswers>& responder,
   return command.add_option("--responder", reads_plug("--responder", responder), help);
 }
 
+Option add_responders(Command& command, std::vector<WhoAnswers>& responders,
+                      const std::string& help) {
+  const auto read = [&responders](const std::string& text) {
+    refuse_unfinished("--responder", text);
+    from_text(text, responders.emplace_back());
+  };
+  return command.add_option("--responder", ReadsText{read, true}, help);
+}
+
 namespace {
 void add_files_of_apparatus(Command& command, SessionOptions& given, bool stay) {
   command.add_option(

@@ -29,6 +29,9 @@ Option add_plug(Command& command, const std::string& name, std::optional<Plug>& 
 /// human, NAME or NAME:FILE
 Option add_responder(Command& command, std::optional<WhoAnswers>& responder,
                      const std::string& help);
+/// The same for several models.
+Option add_responders(Command& command, std::vector<WhoAnswers>& responders,
+                      const std::string& help);
 
 /// One of an enumeration's names.
 template <typename Enum>

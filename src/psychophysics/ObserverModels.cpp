@@ -107,7 +107,7 @@ struct ZScore {
   double z = 0, variance = 0;  ///< of z
 };
 
-ZScore z_of(int n_yes, int n) {
+ZScore z_of(double n_yes, double n) {
   const double p = (n_yes + 0.5) / (n + 1.0);
   const double z = normal_quantile(p);
   return {z, p * (1 - p) / (n * normal_density(z) * normal_density(z))};

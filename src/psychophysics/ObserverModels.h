@@ -74,10 +74,11 @@ struct IndecisionShares {
 /// @param level comparison minus reference
 IndecisionShares indecision_shares(const IndecisionParameters& parameters, double level);
 
-/// Trials with a difference (signal) and without (noise), and "different" responses in each.
+/// Trials with a difference (signal) and without (noise), and "different" responses in each, which
+/// need not be whole: a model's are expected numbers.
 struct DetectionCounts {
-  int n_signal = 0, n_hits = 0;
-  int n_noise = 0, n_false_alarms = 0;
+  double n_signal = 0, n_hits = 0;
+  double n_noise = 0, n_false_alarms = 0;
 };
 
 /// Equal-variance signal detection (Macmillan & Creelman 2005). Standard errors by Gourevitch &

@@ -1,13 +1,18 @@
 #include "replay/OfflineResponder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <span>
-#include <tuple>
 
 #include "base/Error.h"
+#include "base/Random.h"
 #include "replay/AttemptReplay.h"
 #include "responders/Responder.h"
+#include "responders/perception/SeenGeometry.h"
 #include "tasks/SessionPlan.h"
 #include "tasks/Task.h"
 
@@ -35,31 +40,31 @@ std::unique_ptr<TaskTrial> answered(const TaskBlock& block, const TrialPlan& pla
   return answer.empty() ? nullptr : std::move(trial);
 }
 
-// The responder in question under each of the session's configurations, with the stage of that
-// time.
-class DecisionModels {
+// One of the models under each of the session's configurations: a responder for each draw.
+class Model {
  public:
-  DecisionModels(const LoggedSession& session, const WhoAnswers& responder)
-      : session_(session), named_(named(responder)) {}
+  using Draws = std::vector<std::unique_ptr<Responder>>;
 
-  struct DecisionModel {
-    std::unique_ptr<Responder> responder;
-    std::shared_ptr<const Protocol> protocol;
-  };
+  Model(const LoggedSession& session, const WhoAnswers& responder, const JudgeRequest& request)
+      : session_(session), named_(named(responder)), request_(request) {}
 
-  const DecisionModel& in_effect(const TrialRow& trial) {
-    DecisionModel& mind = models_[trial.setup_index];
-    if (mind.responder) return mind;
-    // Without a file it has the logged responder's parameters.
+  const Draws& in_effect(const TrialRow& trial) {
+    Draws& draws = by_setup_[trial.setup_index];
+    if (!draws.empty()) return draws;
     const auto* logged = std::get_if<Plug>(&session_.setup_of(trial).responder);
     const bool same = logged && named_.named.what.empty() && logged->name == named_.named.name;
-    const ResolvedModel model = same ? logged_model(*logged) : named_;
-    mind.responder = model.responder(session_.row.header.seed);
-    mind.protocol = session_.protocol_of(trial);
-    return mind;
+    const ResolvedModel model = same ? as_it_was(*logged) : named_;
+    for (int draw = 0; draw < request_.repeats; ++draw)
+      draws.push_back(model.responder(RandomStream(request_.seed, "judge " + named_.named.name,
+                                                   static_cast<std::uint64_t>(session_id()),
+                                                   static_cast<std::uint64_t>(draw))
+                                          .bits()));
+    return draws;
   }
 
  private:
+  std::int64_t session_id() const { return session_.row.session_id; }
+
   static ResolvedModel named(const WhoAnswers& responder) {
     const auto* model = std::get_if<Plug>(&responder);
     if (!model)
@@ -69,9 +74,21 @@ class DecisionModels {
     return resolved;
   }
 
+  // The simulated person of this session, and not another one of the same population.
+  ResolvedModel as_it_was(const Plug& logged) const {
+    ResolvedModel model = logged_model(logged);
+    const auto drawn = model.drawn(session_.row.header.seed);
+    auto& given = model.options.parameters;
+    std::erase_if(given, [&](const Parameter& one) { return drawn.contains(one.name); });
+    for (const auto& [name, value] : drawn)
+      given.push_back({name, name == "participant_spread" ? 0.0 : value, {}});
+    return model;
+  }
+
   const LoggedSession& session_;
   ResolvedModel named_;
-  std::map<int, DecisionModel> models_;
+  const JudgeRequest& request_;
+  std::map<int, Draws> by_setup_;
 };
 
 // The attempt's actions, and the number of events before its one answer.
@@ -87,97 +104,134 @@ std::pair<std::vector<Action>, int> logged_answer(const AttemptFold& attempt) {
   return {actions, 0};
 }
 
-void judge(const AttemptFold& attempt, const std::vector<FrameRow>& rows,
-           const DecisionModels::DecisionModel& mind, std::uint64_t seed,
-           OfflineAnswers& judgments) {
-  const TrialPlan& plan = attempt.first_plan;
-  const auto [actions, before] = logged_answer(attempt);
-  const std::vector<DisplayedFrame> frames = seen_frames(attempt, rows, before);
-  if (frames.empty()) {
-    ++judgments.n_without_frames;
-    return;
+// The logged hand's frames under another protocol's physics.
+std::vector<FrameRow> supposed(std::vector<FrameRow> rows, const AttemptFold& attempt,
+                               const Protocol& protocol) {
+  AttemptReplay replay(protocol, attempt);
+  for (FrameRow& row : rows) {
+    const ShownFrame shown = replay.advance(row);
+    row.clone = shown.frame.clone;
+    row.cubes = shown.frame.cubes;
   }
-  const TaskBlock& block = task_block(*mind.protocol, plan.block);
-  ScreenState screen;
-  block.trial(plan, seed)->show(screen);
-  const TrialView view{plan.trial_number, plan.attempt, plan.task,
-                       stage_of(*mind.protocol, plan.n_slots()), screen.offer};
-  const auto answer = mind.responder->judge(view, frames);
-  const auto logged = answered(block, plan, seed, actions);
-  const auto judged = answer ? answered(block, plan, seed, answer->actions) : nullptr;
-  if (!judged || !logged) {
-    ++judgments.n_without_answer;
-    return;
-  }
-  judgments.shown_s += frames.back().t_s;
-  judgments.trials.push_back({plan.trial_number, plan.task, plan.condition, plan.reference_g,
-                              std::ranges::min(plan.masses_g) < std::ranges::max(plan.masses_g),
-                              logged->answer(), judged->answer(), logged->labels(),
-                              judged->labels()});
+  return rows;
 }
 
-void count(const OfflineTrial& trial, const std::string& answer, DetectionCounts& counts) {
-  const int yes = answer == "none" ? 0 : 1;
-  ++(trial.has_difference ? counts.n_signal : counts.n_noise);
-  (trial.has_difference ? counts.n_hits : counts.n_false_alarms) += yes;
+std::string word_of(const TaskTrial& trial) {
+  const std::vector<std::string> labels = trial.labels();
+  return labels.empty() ? trial.answer() : fmt::format("{}", fmt::join(labels, " "));
 }
+
+class SessionJudge {
+ public:
+  SessionJudge(const LoggedSession& session, const JudgeRequest& request, const Protocol* what_if)
+      : session_(session), what_if_(what_if) {
+    for (const WhoAnswers& responder : request.responders)
+      models_.emplace_back(session, responder, request);
+    judgments_.n_unanswered.resize(models_.size());
+  }
+
+  void judge(const AttemptFold& attempt, const std::vector<FrameRow>& rows) {
+    if (rows.empty()) {
+      ++judgments_.n_without_frames;
+      return;
+    }
+    const TrialPlan& plan = attempt.first_plan;
+    const auto logged_protocol = session_.protocol_of(attempt.row);
+    const Protocol& protocol = what_if_ ? *what_if_ : *logged_protocol;
+    const TaskBlock& block = task_block(protocol, plan.block);
+    const auto [actions, before] = logged_answer(attempt);
+    const auto logged = answered(block, plan, seed(), actions);
+    if (!logged || !logged->n_answers()) {
+      ++judgments_.n_numbers;
+      return;
+    }
+    const Stage stage = stage_of(protocol, plan.n_slots());
+    const auto frames =
+        seen_frames(attempt, what_if_ ? supposed(rows, attempt, protocol) : rows, before);
+    const auto seen = frames_with_touches(frames, stage);
+    if (seen.empty()) {
+      ++judgments_.n_untouched;
+      return;
+    }
+    ScreenState screen;
+    block.trial(plan, seed())->show(screen);
+    JudgedTrial trial = judged_trial(plan, *logged);
+    const TrialView view{plan.trial_number, plan.attempt, plan.task, stage, screen.offer};
+    for (std::size_t i = 0; i < models_.size(); ++i) {
+      const auto draws = draws_of(models_[i].in_effect(attempt.row), view, seen, block, plan);
+      if (!draws) {
+        ++judgments_.n_unanswered[i];
+        return;
+      }
+      trial.models.push_back(*draws);
+    }
+    judgments_.shown_s += frames.back().t_s;
+    judgments_.trials.push_back(std::move(trial));
+  }
+
+  Judgments take() { return std::move(judgments_); }
+
+ private:
+  std::uint64_t seed() const { return session_.row.header.seed; }
+
+  JudgedTrial judged_trial(const TrialPlan& plan, const TaskTrial& logged) const {
+    return {session_.row.header.participant,
+            session_.row.session_id,
+            plan.trial_number,
+            plan.task,
+            plan.condition,
+            plan.reference_g,
+            plan.level_g,
+            std::ranges::min(plan.masses_g) < std::ranges::max(plan.masses_g),
+            *logged.n_answers(),
+            word_of(logged),
+            logged.labels(),
+            {}};
+  }
+
+  std::optional<AnswerDraws> draws_of(const Model::Draws& responders, const TrialView& view,
+                                      const std::vector<DisplayedFrame>& frames,
+                                      const TaskBlock& block, const TrialPlan& plan) const {
+    AnswerDraws draws;
+    for (const auto& responder : responders) {
+      const auto answer = responder->judge(view, frames);
+      const auto judged = answer ? answered(block, plan, seed(), answer->actions) : nullptr;
+      if (!judged) return std::nullopt;
+      draws.add(word_of(*judged), judged->labels());
+    }
+    return draws;
+  }
+
+  const LoggedSession& session_;
+  const Protocol* what_if_;
+  std::vector<Model> models_;
+  Judgments judgments_;
+};
 
 }  // namespace
 
-OfflineAnswers answer_session(const LogReader& reader, const LoggedSession& session,
-                              const WhoAnswers& responder,
-                              const std::function<void(double)>& progress) {
-  DecisionModels models(session, responder);
+void Judgments::add(Judgments more) {
+  std::ranges::move(more.trials, std::back_inserter(trials));
+  n_without_frames += more.n_without_frames;
+  n_untouched += more.n_untouched;
+  n_numbers += more.n_numbers;
+  n_unanswered.resize(more.n_unanswered.size());
+  for (std::size_t i = 0; i < n_unanswered.size(); ++i) n_unanswered[i] += more.n_unanswered[i];
+  shown_s += more.shown_s;
+}
+
+Judgments judge_session(const LogReader& reader, const LoggedSession& session,
+                        const JudgeRequest& request, const Protocol* what_if,
+                        const std::function<void(double)>& progress) {
+  SessionJudge judge(session, request, what_if);
   const Projection fold = sound_fold(reader, session);
-  OfflineAnswers judgments;
   double n_done = 0;
   for (const auto& [index, attempt] : fold.attempts) {
     if (attempt.row.status == TrialStatus::completed)
-      judge(attempt, reader.frames(session.row.session_id, index), models.in_effect(attempt.row),
-            session.row.header.seed, judgments);
+      judge.judge(attempt, reader.frames(session.row.session_id, index));
     progress(++n_done / static_cast<double>(fold.attempts.size()));
   }
-  return judgments;
-}
-
-int Confusion::n() const {
-  int n = 0;
-  for (const auto& [pair, count] : n_by_pair) n += count;
-  return n;
-}
-
-int Confusion::n_agree() const {
-  int n = 0;
-  for (const auto& [pair, count] : n_by_pair) n += pair.first == pair.second ? count : 0;
-  return n;
-}
-
-std::vector<Agreement> agreements(const std::vector<OfflineTrial>& trials) {
-  struct Counted {
-    Agreement agreement;
-    DetectionCounts logged, judged;
-  };
-  std::map<std::tuple<Task, std::string, std::optional<double>>, Counted, InTaskOrder> groups;
-  for (const OfflineTrial& trial : trials) {
-    auto& [agreement, logged, judged] = groups[{trial.task, trial.condition, trial.reference_g}];
-    agreement.task = trial.task;
-    agreement.condition = trial.condition;
-    agreement.reference_g = trial.reference_g;
-    agreement.answers.add(trial.logged, trial.judged);
-    for (std::size_t i = 0; i < trial.logged_labels.size(); ++i)
-      agreement.labels.add(trial.logged_labels[i], trial.judged_labels[i]);
-    count(trial, trial.logged, logged);
-    count(trial, trial.judged, judged);
-  }
-  std::vector<Agreement> agreements;
-  for (auto& [key, group] : groups) {
-    if (task_named(group.agreement.task).detects) {
-      group.agreement.logged = detection(group.logged);
-      group.agreement.judged = detection(group.judged);
-    }
-    agreements.push_back(std::move(group.agreement));
-  }
-  return agreements;
+  return judge.take();
 }
 
 }  // namespace heft

@@ -128,6 +128,7 @@ struct Comparison {
     void take(const Action& action) override;
     void show(ScreenState& screen) const override { screen.offer = Offer{}; }
     std::string answer() const override;
+    std::optional<int> n_answers() const override { return plan_.n_slots() + 1; }
   };
 
   /// The response that a completed trial gives to its procedure.

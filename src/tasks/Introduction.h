@@ -73,6 +73,7 @@ struct Introduction {
     void take(const Action& action) override;
     void show(ScreenState& screen) const override;
     std::string answer() const override;
+    std::optional<int> n_answers() const override { return 2; }
 
    private:
     Block block_;

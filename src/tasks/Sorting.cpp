@@ -223,6 +223,12 @@ std::vector<std::string> Sorting::Trial::labels() const {
   return names;
 }
 
+std::optional<int> Sorting::Trial::n_answers() const {
+  int n_orders = 1;
+  for (int i = 2; i <= plan_.n_slots(); ++i) n_orders *= i;
+  return n_orders + 1;
+}
+
 Answer Sorting::simulated(const Offer&, const Percepts& percepts, RandomStream& stream) {
   const bool guess = stream.coin(percepts.guess_probability);
   const bool corrected = stream.coin(percepts.correction_probability);

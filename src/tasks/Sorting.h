@@ -90,6 +90,8 @@ struct Sorting {
     void show(ScreenState& screen) const override;
     std::string answer() const override { return *result_.outcome; }
     std::vector<std::string> labels() const override;
+    /// Every order of the cubes, and "I don't know".
+    std::optional<int> n_answers() const override;
 
    private:
     bool all_labeled() const;

@@ -4,6 +4,7 @@ Run: python3 tests/cli/replay_responder_test.py PATH_TO_HEFT
 """
 import collections
 import json
+import math
 import shutil
 import struct
 
@@ -63,81 +64,108 @@ class ReplayResponder(SessionTest):
 
     def judged(self, *words, db=None):
         said = self.run_heft("replay", "--db", db or self.db, *words, "--json").stdout
-        return json.loads(said)["sessions"]
+        return json.loads(said)
 
-    def table_of(self, session, task):
-        """(logged, judged) -> n over the groups of a task."""
-        table = collections.Counter()
-        for group in session["groups"]:
-            if group["task"] == task:
-                table.update({(row["logged"], row["judged"]): row["n"] for row in group["table"]})
-        return table
-
-    def assert_agrees_with_itself(self, session):
-        n = query(self.db, "select count(*) from trial where status = 'completed' and session_id = "
-                           f"{session['session']}")[0][0]
+    def assert_all_judged(self, judged):
+        n = query(self.db, "select count(*) from trial where status = 'completed'")[0][0]
         self.assertGreater(n, 0)
-        self.assertEqual((session["n"], session["agree"]), (n, n))
-        for group in session["groups"]:
-            self.assertEqual(group["logged"], group["judged"])
-            if group["labels"]:
-                self.assertEqual(group["labels"]["agree"], group["labels"]["n"])
-        self.assertGreater(session["times_real_time"], 100)
+        self.assertEqual(len(judged["trials"]), n)
+        self.assertEqual(judged["all"]["n_trials"], n)
+        self.assertGreater(judged["times_real_time"], 100)
+        for trial in judged["trials"]:
+            for model in trial["probabilities"].values():
+                self.assertLessEqual(sum(model.values()), 1)
 
-    def test_the_default_responder_agrees_with_its_own_logs(self):
+    def test_sessions_are_pooled_and_models_stand_side_by_side(self):
         self.session(self.db, protocol="recommended")
         self.session(self.db, protocol="paper", participant="02", seed=6)
-        sessions = self.judged("--responder", "simulated")
-        self.assertEqual(len(sessions), 2)
-        for session in sessions:
-            self.assert_agrees_with_itself(session)
+        names = ["simulated", "criterion_only", "coin"]
+        words = [word for name in names for word in ("--responder", name)]
+        judged = self.judged(*words, "--repeats", 50, "--seed", 3)
+        self.assert_all_judged(judged)
+        self.assertEqual((judged["n_sessions"], judged["repeats"], judged["seed"]), (2, 50, 3))
+        models = judged["all"]["responders"]
+        self.assertEqual([model["responder"] for model in models], names)
+        simulated, blind = models[:2]
+        low, high = simulated["log_score"]["interval"]
+        self.assertTrue(low < simulated["own_log_score"]["value"] < high)
+        self.assertGreater(simulated["log_score"]["value"], judged["all"]["shares"]["value"])
+        self.assertLess(blind["log_score"]["value"], judged["all"]["chance"])
+        self.assertEqual(blind["n_people_better"], 0)
+        self.assertAlmostEqual(
+            blind["difference"]["value"],
+            blind["log_score"]["value"] - simulated["log_score"]["value"], places=9)
+        again = self.judged(*words, "--repeats", 50, "--seed", 3)
+        for found in judged, again:
+            del found["times_real_time"]
+        self.assertEqual(again, judged)
+
+    def test_the_figures_follow_from_each_trials_probabilities(self):
+        self.run_model(self.db, "simulated")
+        judged = self.judged("--responder", "simulated")
+        answers = dict(query(self.db, """select trial_number, case when chosen_slot is null then 'none'
+            when chosen_slot = reference_slot then 'reference' else 'comparison' end
+            from trial where task = 'comparison' and status = 'completed'"""))
+        scores, n_by_pair = [], collections.Counter()
+        for trial in judged["trials"]:
+            if trial["task"] != "comparison":
+                continue
+            self.assertEqual(trial["answer"], answers.pop(trial["trial_number"]))
+            probabilities = trial["probabilities"]["simulated"]
+            scores.append(math.log(probabilities.get(trial["answer"], 0.5 / 101.5)))
+            for answer, probability in probabilities.items():
+                n_by_pair[trial["answer"], answer] += (probability * 101.5 - 0.5) / 100
+        self.assertEqual(answers, {})
+        group = [g for g in judged["groups"] if g["task"] == "comparison"][0]
+        self.assertEqual((group["condition"], group["reference_g"], group["n_trials"]),
+                         ("C2", 200, 16))
+        model = group["responders"][0]
+        self.assertAlmostEqual(model["log_score"]["value"], sum(scores) / len(scores), places=9)
+        self.assertIsNone(model["log_score"]["interval"], "one person")
+        for row in model["answers"]:
+            self.assertAlmostEqual(row["n"], n_by_pair.pop((row["logged"], row["judged"])), places=6)
+        self.assertEqual(len(n_by_pair), 0)
 
     def test_logged_parameters_are_taken_without_their_file(self):
         blind = self.write("blind.toml", BLIND)
-        for seed in range(1, 9):
+        for seed in range(1, 7):
             self.run_model(self.db, f"simulated:{blind}", participant=f"{seed:02}", seed=seed)
-        blind.unlink()
-        sessions = self.judged("--responder", "simulated")
-        for session in sessions:
-            self.assert_agrees_with_itself(session)
-        first = set().union(*(self.table_of(session, "introduction") for session in sessions))
-        self.assertEqual(first, {("heaviest", "heaviest"), ("other", "other")})
+        kept = self.folder / "kept.toml"
+        blind.rename(kept)
         sharp = self.write("sharp.toml",
                            "judgment_noise_mm = 0\nmemory_noise = 0\nlapse_rate = 0\n")
-        with_file = self.judged("--responder", f"simulated:{sharp}", "--session", 1)[0]
-        self.assertLess(with_file["agree"], with_file["n"])
+        judged = self.judged("--responder", "simulated", "--responder", f"simulated:{kept}",
+                             "--responder", f"simulated:{sharp}")
+        same, population, other = [model["log_score"]["value"]
+                                   for model in judged["all"]["responders"]]
+        self.assertGreater(same, population - 0.05)
+        self.assertGreater(same, other + 0.2)
 
-    def test_the_confusion_table_is_that_of_two_logs(self):
-        """A coin answers a trial the same in its own session: SQL makes the table from both."""
+    def test_a_what_if_is_judged(self):
         self.run_model(self.db, "simulated")
-        coins = self.folder / "coin.db"
-        self.run_model(coins, "coin")
-        session = self.judged("--responder", "coin")[0]
-        answers = """select trial_number, task, outcome, chosen_slot, reference_slot
-                     from trial where status = 'completed'"""
-        logged = {row[0]: row for row in query(self.db, answers)}
-        coin = {row[0]: row for row in query(coins, answers)}
-        self.assertEqual(logged.keys(), coin.keys())
-        sorting, comparison = collections.Counter(), collections.Counter()
-        for number, (_, task, outcome, slot, reference_slot) in logged.items():
-            if task == "sorting":
-                sorting[outcome, coin[number][2]] += 1
+        as_seen = self.judged("--responder", "simulated")["trials"]
+        stiff = self.judged("--responder", "simulated", "--set",
+                            "coupling.stiffness_n_per_m=5000")["trials"]
+        self.assertEqual(len(stiff), len(as_seen))
+        same = self.judged("--responder", "simulated", "--set",
+                           "coupling.stiffness_n_per_m=50")["trials"]
+        self.assertEqual(same, as_seen, "the stiffness that it had")
 
-            def choice(chosen):
-                if chosen is None:
-                    return "none"
-                return "reference" if chosen == reference_slot else "comparison"
+        def chance_of_none(trials):
+            return sum(trial["probabilities"]["simulated"].get("none", 0) for trial in trials)
+        self.assertGreater(chance_of_none(stiff), 2 * chance_of_none(as_seen))
 
-            if task == "comparison":
-                comparison[choice(slot), choice(coin[number][3])] += 1
-        self.assertEqual(self.table_of(session, "sorting"), sorting)
-        self.assertEqual(self.table_of(session, "comparison"), comparison)
-        self.assertGreater(len(comparison), 3)
-        group = [g for g in session["groups"] if g["task"] == "comparison"][0]
-        self.assertEqual((group["condition"], group["reference_g"], group["n"]), ("C2", 200, 16))
-        self.assertTrue(group["agree_low"] <= group["agree"] / 16 <= group["agree_high"])
-        for who in "logged", "judged":
-            self.assertGreater(group[who]["d_prime_se"], 0)
+    def test_a_chart_is_drawn(self):
+        self.run_model(self.db, "simulated")
+        chart = self.folder / "models.svg"
+        words = ["replay", "--db", self.db, "--responder", "simulated", "coin", "--chart"]
+        self.assertIn("models.svg", self.run_heft(*words, chart).stdout)
+        drawn = chart.read_text(encoding="utf-8")
+        for text in "simulated", "coin", "chance", "comparison", "200 g", "seed 1":
+            self.assertIn(text, drawn)
+        self.assertEqual([p.name for p in self.folder.glob("models*")], ["models.svg"])
+        self.run_heft(*words, self.folder / "missing" / "m.svg", expect=1)
+        self.run_heft(*words, "models.png", expect=2)
 
     def test_nothing_of_the_logged_session_is_opened(self):
         two = self.write("two.toml", TWO_TRIALS)
@@ -150,8 +178,7 @@ class ReplayResponder(SessionTest):
         for path in self.folder.iterdir():
             if path != self.db:
                 shutil.rmtree(path) if path.is_dir() else path.unlink()
-        for session in self.judged("--responder", "simulated"):
-            self.assert_agrees_with_itself(session)
+        self.assert_all_judged(self.judged("--responder", "simulated"))
         self.assertIn("would be", self.run_heft("replay", "--db", self.db, "--responder", "coin",
                                                 "--rerun").stdout)
         self.run_heft("replay", "--db", self.db, "--set", "physics.friction=0.5")
@@ -162,9 +189,9 @@ class ReplayResponder(SessionTest):
         self.run_heft("simulate", self.protocol, "--participants", 1, "--seed", 3, "--db", self.db)
         said = self.run_heft("replay", "--db", self.db, "--responder", "coin").stdout
         self.assertIn("without frames", said)
-        session = self.judged("--responder", "coin")[0]
-        self.assertEqual(session["n"], 0)
-        self.assertEqual(session["n_without_frames"],
+        judged = self.judged("--responder", "coin")
+        self.assertEqual((judged["trials"], judged["all"]), ([], None))
+        self.assertEqual(judged["left_out"]["without_frames"],
                          query(self.db, "select count(*) from trial")[0][0])
 
     def test_a_changed_log_is_not_judged(self):
@@ -178,7 +205,10 @@ class ReplayResponder(SessionTest):
     def test_what_does_not_go_together_is_refused(self):
         self.session(self.db)
         for words in (["--rerun"], ["--json"], ["--responder", "coin", "--rerun", "--json"],
-                      ["--responder", "coin", "--set", "physics.friction=0.5"],
+                      ["--responder", "coin", "--responder", "simulated", "--rerun"],
+                      ["--repeats", "5"], ["--chart", "a.svg"], ["--seed", "1"],
+                      ["--responder", "coin", "--repeats", "1"],
+                      ["--responder", "coin", "--set", "block.sorting.trials=2"],
                       ["--responder", "coin", "--view", "video:v.avi"], ["--view", "headless"],
                       ["--view", "video"], ["--responder", "human"], ["--responder", "scripted"],
                       ["--tables"], ["--responder", "coin", "--rerun", "--tables"],
@@ -202,7 +232,7 @@ class ReplayResponder(SessionTest):
         protocol = PROTOCOLS / "paper.toml"
         self.run_heft("simulate", protocol, "--participants", 1, "--seed", 3, "--frames", "--db",
                       self.db)
-        for words in ["--set", "coupling.stiffness_n_per_m=100"], ["--responder", "coin"]:
+        for words in ["--set", "coupling.stiffness_n_per_m=100"], ["--responder", "simulated", "criterion_only"]:
             short = self.run_heft("replay", "--db", self.db, *words).stdout
             every = self.run_heft("replay", "--db", self.db, *words, "--tables").stdout
             self.assertIn("--tables", short)

@@ -1,7 +1,7 @@
-// Responders on what somebody else saw.
+// Models judge what somebody else saw.
 #include <gmock/gmock.h>
 
-#include <set>
+#include <cmath>
 
 #include "base/Error.h"
 #include "replay/AttemptReplay.h"
@@ -15,63 +15,117 @@ using ::testing::HasSubstr;
 using testing::shipped_protocol;
 using testing::StoredSession;
 
-OfflineAnswers judged(const StoredSession& stored, const std::string& responder) {
-  WhoAnswers who;
-  from_text(responder, who);
-  return answer_session(stored.reader(), stored.session(), who, [](double) {});
+Judgments judged(const StoredSession& stored, const std::string& responder, std::uint64_t seed = 1,
+                 const Protocol* what_if = nullptr) {
+  JudgeRequest request{{}, 40, seed};
+  from_text(responder, request.responders.emplace_back());
+  return judge_session(stored.reader(), stored.session(), request, what_if, [](double) {});
 }
 
-void expect_full_agreement(const std::vector<OfflineTrial>& trials) {
-  for (const OfflineTrial& trial : trials) {
-    EXPECT_EQ(trial.logged, trial.judged) << "trial " << trial.trial_number;
-    EXPECT_EQ(trial.logged_labels, trial.judged_labels) << "trial " << trial.trial_number;
-  }
+std::vector<std::map<std::string, int>> drawn(const Judgments& judgments) {
+  std::vector<std::map<std::string, int>> all;
+  for (const JudgedTrial& trial : judgments.trials) all.push_back(trial.models[0].n_by_answer);
+  return all;
 }
 
-TEST(Judging, EveryResponderAgreesWithItself) {
+GroupScores total(const std::vector<JudgedTrial>& trials) {
+  return scores_of(trials, 1, ScoreGroups::all).front();
+}
+
+// Nothing is shared with the streams of the session, or the model would predict itself better than
+// it can.
+TEST(Judging, AModelsOwnLogsScoreAsItExpects) {
   const Protocol protocol = shipped_protocol("recommended");
-  for (const std::string name : {"simulated", "coin", "criterion_only"})
-    for (const std::uint64_t seed : {1u, 2u}) {
-      const StoredSession stored(protocol, name, seed);
-      const OfflineAnswers found = judged(stored, name);
-      SCOPED_TRACE(name);
-      EXPECT_EQ(static_cast<int>(found.trials.size()), stored.n_completed());
-      EXPECT_GT(found.shown_s, 60);
-      expect_full_agreement(found.trials);
-    }
+  std::vector<JudgedTrial> trials;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    StoredSession stored(protocol, "simulated", seed);
+    Judgments found = judged(stored, "simulated");
+    EXPECT_EQ(static_cast<int>(found.trials.size()), stored.n_completed());
+    EXPECT_GT(found.shown_s, 60);
+    std::ranges::move(found.trials, std::back_inserter(trials));
+  }
+  double sum = 0, sum_squared = 0;
+  for (const JudgedTrial& trial : trials) {
+    const double beyond = log_score(trial, 0) - log_score_of_own(trial, 0);
+    sum += beyond;
+    sum_squared += beyond * beyond;
+  }
+  EXPECT_GT(trials.size(), 100u);
+  EXPECT_LT(std::abs(sum), 3 * std::sqrt(sum_squared));
+  const GroupScores all = total(trials);
+  EXPECT_GT(all.models[0].log_score.value, all.shares.value + 0.1);
+  EXPECT_LT(all.models[0].agreement.value, 0.95);
 }
 
-// A first choice that is wrong is followed by more frames and more choices.
-TEST(Judging, TheIntroductionIsAnsweredByItsFirstChoice) {
-  const Protocol protocol = shipped_protocol("quick");
-  std::set<std::string> seen;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    const StoredSession stored(protocol, "coin", seed);
-    const std::vector<OfflineTrial> trials = judged(stored, "coin").trials;
-    expect_full_agreement(trials);
-    seen.insert(trials.front().logged);
-  }
-  EXPECT_THAT(seen, ElementsAre("heaviest", "other"));
+TEST(Judging, DrawsFollowFromTheSeedAlone) {
+  const StoredSession stored(shipped_protocol("quick"), "simulated", 3);
+  const auto once = drawn(judged(stored, "simulated", 5));
+  EXPECT_EQ(drawn(judged(stored, "simulated", 5)), once);
+  EXPECT_NE(drawn(judged(stored, "simulated", 6)), once);
 }
 
 TEST(Judging, WhoNeverFindsADifferenceAnswersSoWhateverWasLogged) {
-  const StoredSession stored(shipped_protocol("quick"), "always_yes", 3);
+  const StoredSession stored(shipped_protocol("quick"), "simulated", 3);
   int n_comparisons = 0;
-  for (const OfflineTrial& trial : judged(stored, "always_no").trials) {
-    if (trial.task == "introduction") continue;
-    const bool compares = trial.task == "comparison";
-    EXPECT_EQ(trial.judged, compares ? "none" : "dont_know");
-    EXPECT_NE(trial.logged, trial.judged);
-    n_comparisons += compares;
+  for (const JudgedTrial& trial : judged(stored, "always_no").trials) {
+    if (trial.task != "comparison") continue;
+    ++n_comparisons;
+    EXPECT_EQ(trial.n_answers, 3);
+    EXPECT_EQ(trial.models[0].n_of("none"), trial.models[0].n);
   }
   EXPECT_GT(n_comparisons, 0);
 }
 
-TEST(Judging, TrialsWithoutFramesAreToldNotJudged) {
-  const StoredSession stored(shipped_protocol("quick"), "coin", 3, false);
-  const OfflineAnswers found = judged(stored, "coin");
+TEST(Judging, SortingsAreScoredByEveryCubesLabel) {
+  const StoredSession stored(shipped_protocol("quick"), "simulated", 3);
+  int n_sortings = 0;
+  for (const JudgedTrial& trial : judged(stored, "coin").trials) {
+    if (trial.task != "sorting") continue;
+    ++n_sortings;
+    EXPECT_EQ(trial.n_answers, 7) << "six orders, and I don't know";
+    EXPECT_EQ(trial.labels.size(), 3u);
+    EXPECT_EQ(trial.models[0].n_by_label.size(), 3u);
+  }
+  EXPECT_GT(n_sortings, 0);
+}
+
+TEST(Judging, UntouchedTrialsAreLeftOut) {
+  const StoredSession stored(shipped_protocol("quick"), "coin", 3);
+  const Judgments found = judged(stored, "simulated");
+  EXPECT_TRUE(found.trials.empty());
+  EXPECT_EQ(found.n_untouched, stored.n_completed());
+}
+
+TEST(Judging, TrialsWithoutFramesAreLeftOut) {
+  const StoredSession stored(shipped_protocol("quick"), "simulated", 3, false);
+  const Judgments found = judged(stored, "coin");
   EXPECT_TRUE(found.trials.empty());
   EXPECT_EQ(found.n_without_frames, stored.n_completed());
+}
+
+TEST(Judging, TheLoggedPhysicsShowsTheLoggedFrames) {
+  const Protocol protocol = shipped_protocol("quick");
+  const StoredSession stored(protocol, "simulated", 3);
+  EXPECT_EQ(drawn(judged(stored, "simulated", 1, &protocol)), drawn(judged(stored, "simulated")));
+}
+
+// A hundred times the stiffness: the clone hardly lags, and cubes look alike.
+TEST(Judging, AStiffSpringLeavesLittleToSee) {
+  const Protocol protocol = shipped_protocol("quick");
+  Protocol stiff = protocol;
+  stiff.coupling.stiffness_n_per_m *= 100;
+  const StoredSession stored(protocol, "simulated", 3);
+  const auto share_none = [&](const Protocol* what_if) {
+    AnswerDraws all;
+    for (const JudgedTrial& trial : judged(stored, "simulated", 1, what_if).trials)
+      if (trial.task == "comparison")
+        for (const auto& [answer, n] : trial.models[0].n_by_answer) {
+          all.n += n;
+          all.n_by_answer[answer] += n;
+        }
+    return static_cast<double>(all.n_of("none")) / all.n;
+  };
+  EXPECT_GT(share_none(&stiff), share_none(nullptr) + 0.2);
 }
 
 TEST(Judging, APersonIsNoResponder) {
@@ -100,33 +154,6 @@ TEST(SeenFrames, EndWithTheAnswerAndLackWhatAPauseHid) {
   std::vector<double> seen_s;
   for (const DisplayedFrame& frame : seen_frames(attempt, rows, 13)) seen_s.push_back(frame.t_s);
   EXPECT_THAT(seen_s, ElementsAre(0, 1, 3, 4));
-}
-
-OfflineTrial comparison(double reference_g, bool has_difference, const std::string& logged,
-                        const std::string& judged) {
-  OfflineTrial trial;
-  trial.task = "comparison";
-  trial.condition = "C2";
-  trial.reference_g = reference_g;
-  trial.has_difference = has_difference;
-  trial.logged = logged;
-  trial.judged = judged;
-  return trial;
-}
-
-TEST(Agreements, CountByTaskTechniqueAndReference) {
-  const auto found = agreements(
-      {comparison(15, true, "comparison", "comparison"), comparison(15, true, "comparison", "none"),
-       comparison(15, false, "none", "reference"), comparison(200, true, "none", "none")});
-  ASSERT_EQ(found.size(), 2u);
-  EXPECT_EQ(found[0].reference_g, 15);
-  EXPECT_EQ(found[0].answers.n(), 3);
-  EXPECT_EQ(found[0].answers.n_agree(), 1);
-  EXPECT_EQ(found[0].answers.n_by_pair.at({"none", "reference"}), 1);
-  ASSERT_TRUE(found[0].logged);
-  EXPECT_EQ(found[0].logged->d_prime, detection({2, 2, 1, 0})->d_prime);
-  EXPECT_EQ(found[0].judged->d_prime, detection({2, 1, 1, 1})->d_prime);
-  EXPECT_FALSE(found[1].logged) << "no trial without difference";
 }
 
 }  // namespace

@@ -56,9 +56,9 @@ TEST(ReplayViewOptions, EachFrameSaysItsTrialMassesTimeAndAnswers) {
     n += frames.size();
     const auto& last = view.pictures.at(n - 1).captions;
     ASSERT_EQ(first.size(), std::size_t{replay_captions});
-    EXPECT_THAT(first[0], HasSubstr(fmt::format("trial {}: {}, {}; left to right {:g}", trial.plan.trial_number,
-                                                trial.plan.task, trial.plan.condition,
-                                                trial.plan.masses_g[0])));
+    EXPECT_THAT(first[0], HasSubstr(fmt::format("trial {}: {}, {}; left to right {:g}",
+                                                trial.plan.trial_number, trial.plan.task,
+                                                trial.plan.condition, trial.plan.masses_g[0])));
     EXPECT_THAT(first[0], HasSubstr(" g; 0.0 s"));
     EXPECT_EQ(first[1], "answer: none yet");
     ASSERT_TRUE(trial.outcome);

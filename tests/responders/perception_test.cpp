@@ -11,6 +11,7 @@
 #include "FakeTrial.h"
 #include "base/PoseTypes.h"
 #include "responders/hand/Hand.h"
+#include "responders/perception/SeenGeometry.h"
 
 namespace heft {
 namespace {
@@ -47,6 +48,31 @@ std::vector<double> percepts_mm(const ResponderParameters& parameters,
                                 const std::vector<double>& masses_g, double rate_hz = 15) {
   const Stage stage = fake::row_of(static_cast<int>(masses_g.size()), rate_hz);
   return percepts_mm(parameters, stage, World(stage, "C2", masses_g));
+}
+
+// Judging looks at these frames alone.
+TEST(Perception, FramesWithoutTouchesTellNothing) {
+  const Stage stage = fake::row_of(3, 15);
+  const TrialView trial{1, 1, "sorting", stage};
+  Hand hand(default_parameters(), 9, trial);
+  World world(stage, "C2", {15, 200, 800});
+  hand.explore(std::vector<int>{0, 1, 2});
+  world.show_cubes();
+  std::vector<DisplayedFrame> frames;
+  for (int i = 0; i < 600; ++i) {
+    const double t_s = i / stage.display_rate_hz;
+    world.move_effector(hand.at(t_s));
+    frames.push_back(world.picture(t_s));
+    hand.see(frames.back());
+  }
+  frames[40].tracked = false;
+  const auto some = frames_with_touches(frames, stage);
+  EXPECT_LT(some.size(), frames.size() * 2 / 3);
+  Perception of_all(default_parameters(), 9, trial), of_some(default_parameters(), 9, trial);
+  for (const DisplayedFrame& frame : frames) of_all.see(frame);
+  for (const DisplayedFrame& frame : some) of_some.see(frame);
+  EXPECT_GT(of_all.percepts_mm()[1], 5);
+  EXPECT_EQ(of_some.percepts_mm(), of_all.percepts_mm());
 }
 
 TEST(Perception, PerceptsGrowWithMassUntilTheCubeDoesNotMove) {

@@ -29,16 +29,19 @@ namespace {
 struct ReplayOptions {
   std::string db = "heft.db";
   std::optional<std::int64_t> session;
-  std::optional<WhoAnswers> responder;
+  std::vector<WhoAnswers> responders;
+  int repeats = JudgeRequest{}.repeats;
+  std::optional<std::uint64_t> seed;
+  std::string chart;
   std::optional<std::string> simulator;
   std::optional<Plug> view;
   std::vector<ProtocolSetting> set;
   std::string witness;
   bool rerun = false, json = false, tables = false;
   bool supposes() const { return simulator || !set.empty(); }
-  bool judges() const { return responder && !rerun; }
-  bool verifies() const { return !responder && !supposes() && !view; }
-  bool compares_paths() const { return supposes() && !rerun && !view; }
+  bool judges() const { return !responders.empty() && !rerun; }
+  bool verifies() const { return responders.empty() && !supposes() && !view; }
+  bool compares_paths() const { return supposes() && !rerun && !view && !judges(); }
 };
 
 // Tables of a protocol that affect the world of a logged hand.
@@ -59,12 +62,13 @@ void check_world(const std::vector<ProtocolSetting>& settings) {
 
 void check(const ReplayOptions& options) {
   const auto refuse = [](const char* why) { throw Error(why, ExitCode::usage); };
-  if (options.rerun && !options.responder)
-    refuse("--rerun runs the trials again with a --responder, but none is given");
-  if (options.judges() && options.supposes())
-    refuse(
-        "a --responder judges the displayed frames, which --set and --simulator would change; add "
-        "--rerun to run the trials again");
+  if (options.rerun && options.responders.size() != 1)
+    refuse("--rerun runs the trials again with one --responder");
+  if ((!options.chart.empty() || options.seed || options.repeats != JudgeRequest{}.repeats) &&
+      !options.judges())
+    refuse("--repeats, --seed and --chart require a --responder without --rerun");
+  if (!options.chart.empty() && !options.chart.ends_with(".svg"))
+    refuse("--chart: expected a file that ends in .svg");
   if (!options.rerun) check_world(options.set);
   if (options.tables && (options.json || !(options.judges() || options.compares_paths())))
     refuse(
@@ -73,7 +77,7 @@ void check(const ReplayOptions& options) {
   if (!options.witness.empty() && (options.session || !options.verifies()))
     refuse("--witness verifies the whole log, without other options");
   if (options.json && !options.judges()) refuse("--json requires a --responder without --rerun");
-  if (options.view && options.responder)
+  if (options.view && !options.responders.empty())
     refuse(
         "--view shows the logged frames, with --set or --simulator another clone beside them; "
         "it takes no --responder");
@@ -252,27 +256,40 @@ void ask_what_if(const LogReader& reader, const ReplayOptions& options) {
     const Supposed would_be = supposed(session, options);
     print("session {}, participant {}:\n", session_id, session.row.header.participant);
     if (options.rerun) {
-      print_rerun(run_again(reader, session, *options.responder, would_be));
+      print_rerun(run_again(reader, session, options.responders.front(), would_be));
       continue;
     }
     print_paths(compare_paths(reader, session, would_be.protocol), options.tables);
   }
 }
 
+// Under --set and --simulator the models see what the logged hand would have shown.
 void judge(const LogReader& reader, const ReplayOptions& options) {
-  std::vector<AnsweredSession> judged;
-  for (const std::int64_t session_id : chosen_sessions(reader, options)) {
-    ProgressBar bar(fmt::format("session {}", session_id));
-    const double start_s = monotonic_s();
-    const LoggedSession session = load_session(reader, options.db, session_id);
-    OfflineAnswers judgments =
-        answer_session(reader, session, *options.responder,
-                       [&](double done) { bar.update(done, fmt::format("{:.0f} %", 100 * done)); });
-    judged.push_back({session_id, session.row.header.participant, to_text(*options.responder),
-                      std::move(judgments), monotonic_s() - start_s});
+  const auto ids = chosen_sessions(reader, options);
+  JudgeRequest request{options.responders, options.repeats};
+  request.seed = options.seed.value_or(request.seed);
+  JudgedLog log{{}, request.repeats, request.seed, static_cast<int>(ids.size()), {}, 0};
+  for (const WhoAnswers& responder : options.responders) log.names.push_back(to_text(responder));
+  const double start_s = monotonic_s();
+  {
+    ProgressBar bar("judging");
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const LoggedSession session = load_session(reader, options.db, ids[i]);
+      std::optional<Supposed> would_be;
+      if (options.supposes()) would_be = supposed(session, options);
+      const auto progress = [&](double done) {
+        const double all = (static_cast<double>(i) + done) / static_cast<double>(ids.size());
+        bar.update(all, fmt::format("session {}, {:.0f} %", ids[i], 100 * all));
+      };
+      log.judgments.add(judge_session(reader, session, request,
+                                      would_be ? &would_be->protocol : nullptr, progress));
+    }
   }
-  if (options.json) return fmt::print("{}", as_json(judged));
-  for (const AnsweredSession& session : judged) print_offline_responder(session, options.tables);
+  log.took_s = monotonic_s() - start_s;
+  if (!options.chart.empty()) draw_judged(log, options.chart);
+  if (options.json) return fmt::print("{}", as_json(log));
+  print_judged(log, options.tables);
+  if (!options.chart.empty()) print("chart: {}\n", options.chart);
 }
 
 // The log's texts, if it has any.
@@ -323,16 +340,24 @@ void add_replay(Command& app) {
        "heft replay --db lab.db --session 3 --simulator bullet-ea",
        "heft replay --db lab.db --set physics.friction=0.64",
        "heft replay --db lab.db --set physics.predict_s=0.05",
-       "heft replay --db lab.db --responder simulated",
+       "heft replay --db lab.db --responder simulated --responder criterion_only",
+       "heft replay --db lab.db --responder simulated:mine.toml --repeats 400 --chart models.svg",
+       "heft replay --db lab.db --responder simulated --set coupling.stiffness_n_per_m=100",
        "heft replay --db lab.db --responder coin --rerun",
        "heft replay --db lab.db --session 3 --view video:three.mp4 --set physics.friction=0.64"});
   command.add_option("--db", &options->db, "the log").shows_default();
   command.add_session(options->session, "all");
-  add_responder(command, options->responder,
-                "NAME[:FILE]: give this responder the displayed frames, and compare "
-                "its answers; the logged one without a file has its logged parameters");
+  add_responders(command, options->responders,
+                 "NAME[:FILE] ...: score these models by how well their answers to the displayed "
+                 "frames predict the logged ones; the logged model without a file is the same "
+                 "simulated person");
+  command.add_option("--repeats", &options->repeats, "draws of each answer")
+      .shows_default()
+      .whole_number(2, 100000);
+  command.add_seed(options->seed, "1");
+  command.add_option("--chart", &options->chart, "FILE.svg: the scores by task");
   command.add_flag("--rerun", options->rerun, "run the trials again with the responder instead");
-  command.add_flag("--json", options->json, "the responder's answers as JSON");
+  command.add_flag("--json", options->json, "scores and each trial's probabilities as JSON");
   command.add_flag("--tables", options->tables, "all tables instead of a summary");
   command.add_option("--witness", &options->witness,
                      "a head that was noted when a session ended: also verify that it and the "

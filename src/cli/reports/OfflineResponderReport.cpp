@@ -1,154 +1,271 @@
+// What models that judged a log made of its answers: tables and JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/Names.h"
 #include "cli/console/Terminal.h"
 #include "cli/reports/Reports.h"
-#include "inference/Statistics.h"
-#include "tasks/Task.h"
 
 namespace heft::cli {
 
 namespace {
 using nlohmann::ordered_json;
 
-constexpr double z_95 = 1.959964;  // standard errors in a 95 % interval
+constexpr std::size_t name_width = 23;
 
-double times_real_time(const AnsweredSession& session) {
-  return session.judgments.shown_s / std::max(session.took_s, 1e-9);
+// Its end tells files apart.
+std::string short_name(const std::string& name, std::size_t width = name_width) {
+  return name.size() <= width ? name : fmt::format("..{}", name.substr(name.size() - width + 2));
 }
 
-std::string agreement(const Confusion& confusion) {
-  const int n = confusion.n(), n_agree = confusion.n_agree();
-  const Interval interval = exact_interval(n_agree, n);
-  return fmt::format("{} of {} agree, {:.1f} % [{:.1f}, {:.1f}]", n_agree, n, 100.0 * n_agree / n,
-                     100 * interval.low, 100 * interval.high);
+std::string text_of(const MeanOverPeople& mean, int decimals = 2) {
+  if (!mean.interval) return fmt::format("{:.{}f}", mean.value, decimals);
+  return fmt::format("{:.{}f} [{:.{}f}, {:.{}f}]", mean.value, decimals, mean.interval->low,
+                     decimals, mean.interval->high, decimals);
 }
 
-void print_confusion(const Confusion& confusion) {
-  std::vector<std::string> columns, rows;
-  for (const auto& [pair, n] : confusion.n_by_pair) {
-    if (std::ranges::find(rows, pair.first) == rows.end()) rows.push_back(pair.first);
-    if (std::ranges::find(columns, pair.second) == columns.end()) columns.push_back(pair.second);
+std::string percent_of(const MeanOverPeople& mean) {
+  return fmt::format("{:.1f} %", 100 * mean.value);
+}
+
+std::string name_of(const GroupScores& group) {
+  std::string text = fmt::format("{} {}", group.task, group.condition);
+  if (group.reference_g) text += fmt::format(", {:g} g", *group.reference_g);
+  if (group.level_g) text += fmt::format(" {:+g}", *group.level_g);
+  return text;
+}
+
+void print_left_out(const JudgedLog& log) {
+  const Judgments& judgments = log.judgments;
+  std::vector<std::string> why;
+  const auto add = [&](int n, const std::string& text) {
+    if (n > 0) why.push_back(fmt::format("{} {}", n, text));
+  };
+  add(judgments.n_without_frames, "without frames in the log");
+  add(judgments.n_untouched, "in which no cube was touched");
+  add(judgments.n_numbers, "answered by a number");
+  for (std::size_t i = 0; i < log.names.size(); ++i)
+    add(judgments.n_unanswered[i], fmt::format("without an answer of {}", log.names[i]));
+  if (!why.empty()) print("left out: {}\n", fmt::to_string(fmt::join(why, ", ")));
+}
+
+void print_models(const JudgedLog& log, const GroupScores& all) {
+  print("\n{:<{}} {:<22} {:>11} {:>9} {:>9}\n", "", name_width, "log score a trial", "own answers",
+        "agreement", "with own");
+  for (std::size_t i = 0; i < log.names.size(); ++i) {
+    const ModelScores& model = all.models[i];
+    print("{:<{}} {:<22} {:>11.2f} {:>9} {:>9}\n", short_name(log.names[i]), name_width,
+          text_of(model.log_score), model.own_log_score.value, percent_of(model.agreement),
+          percent_of(model.own_agreement));
   }
-  std::ranges::sort(columns);
-  print("    {:<22}", "logged \\ judged");
+  print("{:<{}} {}\n", "shares of the answers", name_width, text_of(all.shares));
+  print("{:<{}} {:.2f}\n", "chance", name_width, all.chance.value);
+  if (log.names.size() > 1) print("\n");
+  for (std::size_t i = 1; i < log.names.size(); ++i)
+    print("{} - {}: {}, better for {} of {} people\n", short_name(log.names[i], 16),
+          short_name(log.names[0], 16), text_of(all.models[i].difference),
+          all.models[i].n_people_better, all.n_people);
+}
+
+void print_groups(const JudgedLog& log, const std::vector<GroupScores>& groups) {
+  constexpr std::size_t most_models = 3;
+  const std::size_t n = std::min(log.names.size(), most_models);
+  print("\n{:<26} {:>6}", "log score by task", "trials");
+  for (std::size_t i = 0; i < n; ++i) print(" {:>14}", short_name(log.names[i], 14));
+  print(" {:>7}\n", "shares");
+  for (const GroupScores& group : groups) {
+    print("{:<26} {:>6}", name_of(group), group.n_trials);
+    for (std::size_t i = 0; i < n; ++i) print(" {:>14.2f}", group.models[i].log_score.value);
+    print(" {:>7.2f}\n", group.shares.value);
+  }
+}
+
+std::string text_of(double value, const std::optional<Interval>& interval) {
+  return text_of(MeanOverPeople{value, interval});
+}
+
+void print_detection(const std::string& whose, const std::optional<DetectionOverPeople>& found) {
+  if (!found) return;
+  print("  {:<{}} d' {}, criterion {}\n", short_name(whose), name_width,
+        text_of(found->d_prime, found->d_prime_interval),
+        text_of(found->criterion, found->criterion_interval));
+}
+
+void print_confusion(const Confusion& confusion, const std::string& name) {
+  if (confusion.empty()) return;
+  std::set<std::string> rows, columns;
+  for (const auto& [pair, n] : confusion) {
+    rows.insert(pair.first);
+    columns.insert(pair.second);
+  }
+  print("  {:<{}}", "logged \\ " + short_name(name, name_width - 9), name_width);
   for (const std::string& column : columns) print(" {:>12}", column);
   print("\n");
   for (const std::string& row : rows) {
-    print("    {:<22}", row);
+    print("  {:<{}}", "  " + row, name_width);
     for (const std::string& column : columns) {
-      const auto n = confusion.n_by_pair.find({row, column});
-      print(" {:>12}", n == confusion.n_by_pair.end() ? 0 : n->second);
+      const auto n = confusion.find({row, column});
+      print(" {:>12.1f}", n == confusion.end() ? 0 : n->second);
     }
     print("\n");
   }
 }
 
-void print_detection(const char* whose, const std::optional<Detection>& found) {
-  if (!found) return;
-  print("    {:<10} d' {:6.2f} +- {:.2f}, criterion {:6.2f} +- {:.2f}\n", whose, found->d_prime,
-        z_95 * found->d_prime_se, found->criterion, z_95 * found->criterion_se);
-}
-
-void print_agreement(const Agreement& group, bool tables) {
-  const std::string reference =
-      group.reference_g ? fmt::format(", reference {:g} g", *group.reference_g) : "";
-  print("  {} {}{}: {}\n", name_of(group.task), group.condition, reference,
-        agreement(group.answers));
-  if (tables) print_confusion(group.answers);
-  if (group.labels.n() > 0) {
-    print("    labels of cubes: {}\n", agreement(group.labels));
-    if (tables) print_confusion(group.labels);
+void print_tables(const JudgedLog& log, const std::vector<GroupScores>& groups) {
+  for (const GroupScores& group : groups) {
+    print("\n{}: {} of {}\n", name_of(group), counted(group.n_trials, "trial"),
+          fmt::format("{} {}", group.n_people, group.n_people == 1 ? "person" : "people"));
+    print_detection("the people", group.person);
+    for (std::size_t i = 0; i < log.names.size(); ++i) {
+      const ModelScores& model = group.models[i];
+      print("  {:<{}} log score {}, agreement {}\n", short_name(log.names[i]), name_width,
+            text_of(model.log_score), percent_of(model.agreement));
+      print_detection("", model.detection);
+      print_confusion(model.answers, log.names[i]);
+      print_confusion(model.labels, log.names[i]);
+    }
   }
-  print_detection("logged", group.logged);
-  print_detection("responder", group.judged);
-  if (task_named(group.task).detects && !group.logged)
-    print("    no d': it needs trials with and without a difference (catch trials)\n");
+  constexpr int least_trials = 10;
+  print("\nlevels of {} trials or more (all: --json)\n", least_trials);
+  print("{:<30} {:>6} {:>10}", "d' by level", "trials", "people");
+  for (const std::string& name : log.names) print(" {:>16}", short_name(name, 16));
+  print("\n");
+  const auto d_prime = [](const std::optional<DetectionOverPeople>& found) {
+    return found ? fmt::format("{:.2f}", found->d_prime) : std::string("-");
+  };
+  for (const GroupScores& group :
+       scores_of(log.judgments.trials, log.names.size(), ScoreGroups::levels)) {
+    if (!group.person || group.n_trials < least_trials) continue;
+    print("{:<30} {:>6} {:>10}", name_of(group), group.n_trials, d_prime(group.person));
+    for (const ModelScores& model : group.models) print(" {:>16}", d_prime(model.detection));
+    print("\n");
+  }
 }
 
-ordered_json table_of(const Confusion& confusion) {
-  ordered_json table = ordered_json::array();
-  for (const auto& [pair, n] : confusion.n_by_pair)
-    table.push_back({{"logged", pair.first}, {"judged", pair.second}, {"n", n}});
-  return table;
+// JSON.
+
+ordered_json object_of(const std::optional<Interval>& interval) {
+  if (!interval) return nullptr;
+  return ordered_json::array({interval->low, interval->high});
+}
+
+ordered_json object_of(const MeanOverPeople& mean) {
+  return {{"value", mean.value}, {"interval", object_of(mean.interval)}};
+}
+
+ordered_json object_of(const std::optional<DetectionOverPeople>& found) {
+  if (!found) return nullptr;
+  return {{"d_prime", found->d_prime},
+          {"d_prime_interval", object_of(found->d_prime_interval)},
+          {"criterion", found->criterion},
+          {"criterion_interval", object_of(found->criterion_interval)}};
 }
 
 ordered_json object_of(const Confusion& confusion) {
-  if (confusion.n() == 0) return nullptr;
-  const Interval interval = exact_interval(confusion.n_agree(), confusion.n());
-  return {{"n", confusion.n()},
-          {"agree", confusion.n_agree()},
-          {"agree_low", interval.low},
-          {"agree_high", interval.high},
-          {"table", table_of(confusion)}};
+  ordered_json rows = ordered_json::array();
+  for (const auto& [pair, n] : confusion)
+    rows.push_back({{"logged", pair.first}, {"judged", pair.second}, {"n", n}});
+  return rows;
 }
 
-ordered_json object_of(const std::optional<Detection>& found) {
-  if (!found) return nullptr;
-  return {{"d_prime", found->d_prime},
-          {"d_prime_se", found->d_prime_se},
-          {"criterion", found->criterion},
-          {"criterion_se", found->criterion_se}};
+ordered_json object_of(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-ordered_json object_of(const Agreement& group) {
-  ordered_json object{{"task", name_of(group.task)}, {"condition", group.condition}};
-  object["reference_g"] = group.reference_g ? ordered_json(*group.reference_g) : nullptr;
-  object.update(object_of(group.answers));
-  object["labels"] = object_of(group.labels);
-  object["logged"] = object_of(group.logged);
-  object["judged"] = object_of(group.judged);
-  return object;
-}
-
-ordered_json object_of(const AnsweredSession& session) {
-  const OfflineAnswers& judgments = session.judgments;
-  ordered_json groups = ordered_json::array();
-  int n_agree = 0;
-  for (const Agreement& group : agreements(judgments.trials)) {
-    groups.push_back(object_of(group));
-    n_agree += group.answers.n_agree();
+ordered_json object_of(const GroupScores& group, const std::vector<std::string>& names) {
+  ordered_json models = ordered_json::array();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const ModelScores& model = group.models[i];
+    models.push_back({{"responder", names[i]},
+                      {"log_score", object_of(model.log_score)},
+                      {"own_log_score", object_of(model.own_log_score)},
+                      {"agreement", object_of(model.agreement)},
+                      {"own_agreement", object_of(model.own_agreement)},
+                      {"difference", object_of(model.difference)},
+                      {"n_people_better", model.n_people_better},
+                      {"detection", object_of(model.detection)},
+                      {"answers", object_of(model.answers)},
+                      {"labels", object_of(model.labels)}});
   }
-  return {{"session", session.session_id},
-          {"participant", session.participant},
-          {"responder", session.responder},
-          {"n", judgments.trials.size()},
-          {"agree", n_agree},
-          {"n_without_frames", judgments.n_without_frames},
-          {"n_without_answer", judgments.n_without_answer},
-          {"times_real_time", times_real_time(session)},
-          {"groups", groups}};
+  return {{"task", group.task},
+          {"condition", group.condition},
+          {"reference_g", object_of(group.reference_g)},
+          {"level_g", object_of(group.level_g)},
+          {"n_trials", group.n_trials},
+          {"n_people", group.n_people},
+          {"chance", group.chance.value},
+          {"shares", object_of(group.shares)},
+          {"person", object_of(group.person)},
+          {"responders", models}};
 }
+
+ordered_json object_of(const JudgedTrial& trial, const std::vector<std::string>& names) {
+  ordered_json probabilities;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    for (const auto& [answer, n] : trial.models[i].n_by_answer)
+      probabilities[names[i]][answer] = probability_of(trial.models[i], answer, trial.n_answers);
+  return {{"participant", trial.person},         {"session", trial.session_id},
+          {"trial_number", trial.trial_number},  {"task", trial.task},
+          {"condition", trial.condition},        {"reference_g", object_of(trial.reference_g)},
+          {"level_g", object_of(trial.level_g)}, {"answer", trial.answer},
+          {"probabilities", probabilities}};
+}
+
+double times_real_time(const JudgedLog& log) {
+  return log.judgments.shown_s / std::max(log.took_s, 1e-9);
+}
+
 }  // namespace
 
-void print_offline_responder(const AnsweredSession& session, bool tables) {
-  const OfflineAnswers& judgments = session.judgments;
-  print("session {}, participant {}, {} judging the displayed frames:\n", session.session_id,
-        session.participant, session.responder);
-  for (const Agreement& group : agreements(judgments.trials)) print_agreement(group, tables);
-  if (judgments.n_without_frames > 0)
-    print("  not judged: {} without frames in the log\n",
-          counted(judgments.n_without_frames, "trial"));
-  if (judgments.n_without_answer > 0)
-    print("  not judged: {} to which {} has no answer\n",
-          counted(judgments.n_without_answer, "trial"), session.responder);
-  if (judgments.trials.empty()) return print("  no trial was judged\n");
+void print_judged(const JudgedLog& log, bool tables) {
+  const std::vector<JudgedTrial>& trials = log.judgments.trials;
+  print("{}: {} judged, {} draws of each answer (--seed {})\n", counted(log.n_sessions, "session"),
+        counted(std::ssize(trials), "trial"), log.repeats, log.seed);
+  print_left_out(log);
+  if (trials.empty()) return print("no trial was judged\n");
+  const std::size_t n = log.names.size();
+  const auto groups = scores_of(trials, n, ScoreGroups::references);
+  print_models(log, scores_of(trials, n, ScoreGroups::all).front());
+  print_groups(log, groups);
+  if (tables) print_tables(log, groups);
   print(
-      "  95 % intervals: exact (Clopper-Pearson) over trials for agreement; for d' and\n"
-      "  criterion 1.96 standard errors (Gourevitch & Galanter), from log-linear rates\n"
-      "  {} judged, {:.0f} times real time{}\n",
-      counted(std::ssize(judgments.trials), "trial"), times_real_time(session),
-      tables ? "" : "; which answers differ: --tables");
+      "\nlog score: mean log of the probability that a model gives to the logged answer;\n"
+      "0 is best. own answers: what it would score had it answered itself.\n"
+      "95 % intervals over people. {:.0f} times real time{}\n",
+      times_real_time(log), tables ? "" : "; d', answers: --tables");
 }
 
-std::string as_json(const std::vector<AnsweredSession>& sessions) {
-  ordered_json all = ordered_json::array();
-  for (const AnsweredSession& session : sessions) all.push_back(object_of(session));
-  return ordered_json{{"sessions", all}}.dump(2, ' ', false,
-                                              ordered_json::error_handler_t::replace) +
+std::string as_json(const JudgedLog& log) {
+  const Judgments& judgments = log.judgments;
+  const std::size_t n = log.names.size();
+  ordered_json groups = ordered_json::array(), trials = groups, levels = groups;
+  for (const GroupScores& group : scores_of(judgments.trials, n, ScoreGroups::references))
+    groups.push_back(object_of(group, log.names));
+  for (const GroupScores& group : scores_of(judgments.trials, n, ScoreGroups::levels))
+    if (group.level_g) levels.push_back(object_of(group, log.names));
+  for (const JudgedTrial& trial : judgments.trials) trials.push_back(object_of(trial, log.names));
+  ordered_json unanswered;
+  for (std::size_t i = 0; i < n; ++i) unanswered[log.names[i]] = judgments.n_unanswered[i];
+  ordered_json all = nullptr;
+  if (!judgments.trials.empty())
+    all = object_of(scores_of(judgments.trials, n, ScoreGroups::all).front(), log.names);
+  return ordered_json{{"repeats", log.repeats},
+                      {"seed", log.seed},
+                      {"n_sessions", log.n_sessions},
+                      {"left_out",
+                       {{"without_frames", judgments.n_without_frames},
+                        {"untouched", judgments.n_untouched},
+                        {"numbers", judgments.n_numbers},
+                        {"unanswered", unanswered}}},
+                      {"times_real_time", times_real_time(log)},
+                      {"all", all},
+                      {"groups", groups},
+                      {"levels", levels},
+                      {"trials", trials}}
+             .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
          "\n";
 }
 

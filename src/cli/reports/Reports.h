@@ -45,27 +45,34 @@ nlohmann::ordered_json as_json(const SessionFacts& facts);
 std::vector<std::string> next_steps(const std::vector<SessionFacts>& sessions,
                                     const std::string& db);
 
-// A responder's answers to a log compared with the logged ones, for heft replay.
+// Models that judge a log, for heft replay.
 
-struct AnsweredSession {
-  std::int64_t session_id = 0;
-  std::string participant, responder;
-  OfflineAnswers judgments;
+struct JudgedLog {
+  std::vector<std::string> names;  ///< of the models, as given
+  int repeats = 0;
+  std::uint64_t seed = 0;
+  int n_sessions = 0;
+  Judgments judgments;
   double took_s = 0;  ///< wall time of the judging
 };
 
-/// @param tables also the counts of each pair of answers
-void print_offline_responder(const AnsweredSession& session, bool tables);
+/// Scores of all models and tasks. @param tables also sensitivity, criterion and counts of each
+/// pair of answers, by reference and level
+void print_judged(const JudgedLog& log, bool tables);
+
+/// The same figures, and each trial's probabilities. Missing values are null.
+std::string as_json(const JudgedLog& log);
+
+/// Writes a chart of each model's log score by task, technique and reference.
+/// @param file ends in .svg
+/// @throws Error if it cannot be written, or gnuplot is missing
+void draw_judged(const JudgedLog& log, const std::string& file);
 
 /// @param tables every mass and all cues; else the lightest and the heaviest cube with three cues
 void print_paths(const std::vector<PathDifference>& differences, bool tables);
 
 /// Outcomes and JNDs, logged and of the responder.
 void print_rerun(const OtherResponder& other);
-
-/// Intervals of agreement: exact (Clopper and Pearson), 95 %. Of d' and criterion: 1.96 standard
-/// errors. Missing values are null.
-std::string as_json(const std::vector<AnsweredSession>& sessions);
 
 // Checks of the participant's texts, for heft validate.
 

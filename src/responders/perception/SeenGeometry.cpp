@@ -39,6 +39,21 @@ std::optional<int> touched_cube(const Pose& clone, std::span<const Pose> cubes,
   return nearest;
 }
 
+std::vector<DisplayedFrame> frames_with_touches(std::span<const DisplayedFrame> frames,
+                                                const Stage& stage) {
+  std::vector<DisplayedFrame> some;
+  bool touched_before = false;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const DisplayedFrame& frame = frames[i];
+    const bool touches =
+        frame.tracked && frame.clone && touched_cube(*frame.clone, frame.cubes, stage);
+    if (touches && !touched_before && i > 0) some.push_back(frames[i - 1]);
+    if (touches) some.push_back(frame);
+    touched_before = touches;
+  }
+  return some;
+}
+
 bool clear_of_others(const Footprint& area, std::span<const Pose> cubes, int but,
                      const Stage& stage) {
   for (std::size_t i = 0; i < cubes.size(); ++i) {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "base/PoseTypes.h"
 #include "experiment/Stage.h"
@@ -16,6 +17,11 @@ Eigen::Vector3d half_extents_m(const Eigen::Quaterniond& orientation,
 /// Index of the cube that the clone's tip seems to touch: the nearest one in front of it, within a
 /// few millimeters. None if there is none.
 std::optional<int> touched_cube(const Pose& clone, std::span<const Pose> cubes, const Stage& stage);
+
+/// The frames in which a cube seems to be touched, and the one before each, from which an eye counts
+/// time: they give the percepts of all. None: no cube is touched.
+std::vector<DisplayedFrame> frames_with_touches(std::span<const DisplayedFrame> frames,
+                                                const Stage& stage);
 
 /// A rectangle on the table, world axes.
 struct Footprint {
