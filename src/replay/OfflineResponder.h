@@ -24,7 +24,7 @@ struct Judgments {
   std::vector<JudgedTrial> trials;
   int n_without_frames = 0;
   int n_untouched = 0;  ///< no cube was seen touched, so there was nothing to judge
-  int n_numbers = 0;    ///< answered by a number, which has no probability of its own
+  int n_numbers = 0;    ///< answered by a number: scores need a countable set of answers
   std::vector<int> n_unanswered = {};  ///< by responder: it had no answer to the trial
   double shown_s = 0;                  ///< total duration of the judged trials' frames
 

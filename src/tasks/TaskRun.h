@@ -77,7 +77,7 @@ class TaskTrial {
   /// The label of each cube in that answer; empty: the task has no labels.
   virtual std::vector<std::string> labels() const { return {}; }
   /// How many answers the trial offers, to score models by the probability that they give to the
-  /// logged one. None: numbers, which have no probability of their own.
+  /// logged one. None: the answer is a number.
   virtual std::optional<int> n_answers() const { return std::nullopt; }
 
  protected:

@@ -40,7 +40,7 @@ std::string script_of(const JudgedLog& log, const std::string& file) {
       {file, width_px, top_px + plot_px + bottom_px, "How well models predict the logged answers",
        fmt::format(
            "Mean log probability of the logged answer, with 95 % intervals over people; 0 "
-           "is best. Bars: the score of each model on answers of its own, which nothing "
+           "is best. Bars: the score of each model on its own answers, which nothing "
            "exceeds but by luck. {} trials, {} draws each. Made by: heft replay --responder "
            "(seed {})",
            log.judgments.trials.size(), log.repeats, log.seed)});

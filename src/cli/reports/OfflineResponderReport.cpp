@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t name_width = 23;
 
-// Its end tells files apart.
+// Files differ in the end of their names.
 std::string short_name(const std::string& name, std::size_t width = name_width) {
   return name.size() <= width ? name : fmt::format("..{}", name.substr(name.size() - width + 2));
 }
