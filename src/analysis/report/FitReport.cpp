@@ -43,8 +43,8 @@ Table table_of_people(const NamedFit& named) {
                    {"high", "to"},
                    {"why", "no threshold: why"}};
   for (const auto& [person, own] : named.people) {
-    const auto end = [&](double Interval::*of) {
-      return own.interval_g ? figure(*own.interval_g.*of) : Cell{};
+    const auto end = [&interval_g = own.interval_g](double Interval::*of) {
+      return interval_g ? figure(*interval_g.*of) : Cell{};
     };
     table.rows.push_back({word(person), figure(own.threshold_75_g), end(&Interval::low),
                           end(&Interval::high), word(own.why.empty() ? " " : own.why)});
