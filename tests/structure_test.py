@@ -34,6 +34,7 @@ MAY_INCLUDE = {
     "analysis": ROWS_1_2 | {"protocol", "record", "responders", "view"},
     "replay": ROWS_1_2 | ROW_3 | {"apparatus"},
     "session": ROWS_1_2 | ROW_3 | {"apparatus", "replay"},
+    "population": ROWS_1_2 | ROW_3 | {"apparatus", "replay", "session", "analysis"},
 }
 # window is loaded at run time, and no other folder includes it.
 MAY_INCLUDE["results"] = MAY_INCLUDE["cli"] = set(MAY_INCLUDE) - {"window"}

@@ -112,7 +112,7 @@ std::string commands_in_a_row(const CommandDescription& command) {
 }
 
 std::string commands_of(const CommandDescription& command, std::size_t width) {
-  std::string text = "Commands:\n";
+  std::string text;
   for (const CommandDescription& inner : command.commands)
     text += line_of("  " + last_word(inner.name), inner.summary, width, command_column);
   return text;
@@ -194,7 +194,7 @@ std::string help_of(const CommandDescription& command, std::size_t width) {
     for (const OptionDescription& option : command.options)
       if (option.group == group) text += line_of(left_of(option), option.help, width);
   }
-  if (!command.commands.empty()) text += '\n' + commands_of(command, width);
+  if (!command.commands.empty()) text += "\nCommands:\n" + commands_of(command, width);
   if (!command.footer.empty()) text += '\n' + with_examples(command.footer, width);
   return text;
 }

@@ -78,13 +78,18 @@ std::string script_of(const JudgedLog& log, const std::string& file) {
 
 void draw_judged(const JudgedLog& log, const std::string& file) {
   if (log.judgments.trials.empty()) throw Error("no trial was judged, so there is no chart");
+  draw_svg(file, [&](const std::string& svg) { return script_of(log, svg); });
+}
+
+void draw_svg(const std::string& file,
+              const std::function<std::string(const std::string& svg)>& script_of) {
   const std::filesystem::path svg = std::filesystem::absolute(file);
   const std::string script = svg.filename().string() + ".gp";
   const std::filesystem::path path = svg.parent_path() / script;
-  if (!(std::ofstream(path) << script_of(log, svg.filename().string())).flush())
+  if (!(std::ofstream(path) << script_of(svg.filename().string())).flush())
     throw Error(fmt::format("{} can't be written; does its folder exist?", file));
-  const bool drawn = run_gnuplot(svg.parent_path().string(), script);
-  if (!drawn) throw Error(fmt::format("gnuplot is not installed; its script is {}", path.string()));
+  if (!run_gnuplot(svg.parent_path().string(), script))
+    throw Error(fmt::format("gnuplot is not installed; its script is {}", path.string()));
   std::filesystem::remove(path);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "apparatus/StudyPlaces.h"
 #include "base/Error.h"
 #include "experiment/ScreenTexts.h"
+#include "population/Power.h"
 #include "record/reader/LogReader.h"
 #include "replay/OfflineResponder.h"
 #include "replay/WhatIf.h"
@@ -73,6 +75,29 @@ void print_paths(const std::vector<PathDifference>& differences, bool tables);
 
 /// Outcomes and JNDs, logged and of the responder.
 void print_rerun(const OtherResponder& other);
+
+// What a study can be expected to find, for heft power.
+
+struct ModelPower {
+  std::string protocol, model;
+  std::uint64_t seed = 0;
+  Power power;
+};
+
+/// Hypotheses and the main figures at three sizes, and what they mean.
+/// @param tables every size and figure
+void print_power(const ModelPower& found, bool tables);
+
+std::string as_json(const std::vector<ModelPower>& all);
+
+/// Writes a chart of power and precision against participants. @throws Error as draw_svg()
+void draw_power(const ModelPower& found, const std::string& file);
+
+/// Writes a chart by gnuplot. @param file ends in .svg
+/// @param script_of the script that writes a file of that name
+/// @throws Error if it cannot be written, or gnuplot is missing
+void draw_svg(const std::string& file,
+              const std::function<std::string(const std::string& svg)>& script_of);
 
 // Checks of the participant's texts, for heft validate.
 

@@ -1,0 +1,152 @@
+// heft power: what a study of a protocol can be expected to find.
+#include "population/Power.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "base/Error.h"
+#include "cli/Commands.h"
+#include "cli/SessionOptions.h"
+#include "cli/console/Terminal.h"
+#include "cli/reports/Reports.h"
+
+namespace heft::cli {
+
+namespace {
+namespace fs = std::filesystem;
+
+struct PowerOptions {
+  std::string protocol, chart;
+  std::vector<WhoAnswers> models;
+  std::vector<ProtocolSetting> set;
+  std::vector<int> participants{8, 13, 20};
+  int studies = 100;
+  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::optional<std::uint64_t> seed;
+  bool json = false, tables = false;
+};
+
+// "8,13,20"
+std::vector<int> read_sizes(const std::string& text) {
+  std::vector<int> sizes;
+  for (const char *at = text.data(), *end = at + text.size(); at <= end;) {
+    int n = 0;
+    const auto [after, error] = std::from_chars(at, end, n);
+    if (error != std::errc() || n < 1 || n > 10000 || (after != end && *after != ','))
+      throw Error(fmt::format("--participants {}: expected numbers from 1 to 10000 with commas "
+                              "between, such as 8,13,20",
+                              text),
+                  ExitCode::usage);
+    sizes.push_back(n);
+    at = after + 1;
+  }
+  return sizes;
+}
+
+// A folder that exists as long as this object.
+class WorkFolder {
+ public:
+  WorkFolder() : path_(fs::temp_directory_path() / fmt::format("heft-power-{}", ::getpid())) {
+    fs::create_directories(path_);
+  }
+  ~WorkFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  std::string path() const { return path_.string(); }
+
+ private:
+  fs::path path_;
+};
+
+void print_powers(const PowerOptions& options) {
+  const std::uint64_t seed = options.seed ? *options.seed : fresh_seed();
+  const WorkFolder folder;
+  const StopOnSignal stop;
+  std::vector<ModelPower> all;
+  for (const WhoAnswers& model : options.models) {
+    SessionOptions given;
+    given.responder = model;
+    given.settings = options.set;
+    given.protocol_file = options.protocol;
+    const PowerRequest request{resolve(given, load_protocol(options.protocol, options.set), seed),
+                               options.participants, options.studies, options.jobs, folder.path()};
+    ProgressBar bar(to_text(model));
+    const auto progress = [&](double done) {
+      bar.update(done,
+                 fmt::format("{:.0f} of {} studies", done * options.studies, options.studies));
+    };
+    auto power = power_of(request, progress, stop.requested());
+    if (!power) throw Error("stopped before the last study", ExitCode::interrupted);
+    all.push_back({request.config->protocol->name, to_text(model), seed, std::move(*power)});
+  }
+  if (!options.chart.empty()) draw_power(all.front(), options.chart);
+  if (options.json) return fmt::print("{}", as_json(all));
+  for (const ModelPower& found : all) {
+    if (&found != &all.front()) print("\n");
+    print_power(found, options.tables);
+  }
+  if (!options.chart.empty()) print("chart: {}\n", options.chart);
+}
+
+void check(const PowerOptions& options) {
+  const auto refuse = [](const char* why) { throw Error(why, ExitCode::usage); };
+  for (const WhoAnswers& model : options.models)
+    if (std::holds_alternative<Person>(model))
+      refuse("--model human: power comes from simulated people; expected a model");
+  if (options.json && options.tables) refuse("--tables has no effect with --json");
+  if (!options.chart.empty() && !options.chart.ends_with(".svg"))
+    refuse("--chart: expected a file that ends in .svg");
+  if (!options.chart.empty() && options.models.size() > 1) refuse("--chart shows one --model");
+}
+
+}  // namespace
+
+void add_power(Command& app) {
+  const auto options = std::make_shared<PowerOptions>();
+  Command command = app.add_command(
+      "power", "what a study can be expected to find, by number of participants",
+      {"heft power protocols/paper.toml",
+       "heft power protocols/recommended.toml --participants 10,20,40 --studies 200 --chart "
+       "power.svg",
+       "heft power protocols/jnd.toml --model simulated:mine.toml --model coin --json"});
+  command.add_option("PROTOCOL", &options->protocol, "a protocol file").required();
+  const auto read_model = [options](const std::string& text) {
+    from_text(text, options->models.emplace_back());
+  };
+  command.add_option("--model", ReadsText{read_model, true},
+                     "NAME or NAME:FILE ...: people like this one (heft doctor --list; default: "
+                     "simulated)");
+  command.add_option("--participants", ReadsText{[options](const std::string& text) {
+                       options->participants = read_sizes(text);
+                     }},
+                     "sizes of the study, with commas between (default: 8,13,20)");
+  command.add_option("--studies", &options->studies, "simulated studies of each size")
+      .shows_default()
+      .whole_number(2, 100000);
+  command
+      .add_option("--jobs", &options->jobs,
+                  "threads; the result does not depend on them (default: one per core)")
+      .whole_number(1, 1024);
+  command.add_seed(options->seed, "drawn and printed");
+  command.add_option("--chart", &options->chart, "FILE.svg: power and precision by size");
+  command.add_flag("--json", options->json, "all figures as JSON on stdout");
+  command.add_flag("--tables", options->tables, "every size and figure");
+  add_settings(command, options->set,
+               "change a key of the protocol, such as block.comparison.catch_fraction=0.2");
+  command.does([options] {
+    if (options->models.empty()) options->models.push_back(Plug{"simulated"});
+    check(*options);
+    print_powers(*options);
+  });
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,280 @@
+// What a study can be expected to find: tables, sentences, JSON and a chart.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/charts/Plot.h"
+#include "cli/console/Terminal.h"
+#include "cli/reports/Reports.h"
+#include "population/Power.h"
+
+namespace heft::cli {
+
+namespace {
+using nlohmann::ordered_json;
+
+constexpr double wanted_power = 0.8;
+constexpr std::size_t most_columns = 3;  // of the first screen
+
+double share_of(const HypothesisPower& power) {
+  return power.supported.percent() / 100;
+}
+
+std::string number(double value) {
+  return std::abs(value) >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+}
+
+std::string name_of(const EstimatePrecision& one) {
+  std::string text(one.place.measure->heading);
+  if (!one.place.task.empty() && one.place.task != "comparison") text += ", " + one.place.task;
+  if (!one.place.condition.empty()) text += fmt::format(" {}", one.place.condition);
+  if (one.place.reference_g) text += fmt::format(" {:g} g", *one.place.reference_g);
+  return text;
+}
+
+std::string full_name_of(const EstimatePrecision& one) {
+  std::string text = name_of(one);
+  for (const Coordinate& at : one.place.by) text += ", " + at.text;
+  return text;
+}
+
+bool is_main(const EstimatePrecision& one) {
+  const std::string_view name = one.place.measure->name;
+  return name == "threshold_75" || name == "jnd";
+}
+
+bool is_same(const EstimatePrecision& a, const EstimatePrecision& b) {
+  return a.place.measure == b.place.measure && a.place.task == b.place.task &&
+         a.place.condition == b.place.condition && a.place.reference_g == b.place.reference_g &&
+         full_name_of(a) == full_name_of(b);
+}
+
+const EstimatePrecision* at_size(const PowerAtSize& size, const EstimatePrecision& one) {
+  const auto found = std::ranges::find_if(
+      size.estimates, [&](const EstimatePrecision& other) { return is_same(one, other); });
+  return found == size.estimates.end() ? nullptr : &*found;
+}
+
+const HypothesisPower* at_size(const PowerAtSize& size, const std::string& name) {
+  const auto found = std::ranges::find(size.hypotheses, name, &HypothesisPower::name);
+  return found == size.hypotheses.end() ? nullptr : &*found;
+}
+
+// The smallest, a middle and the largest size.
+std::vector<const PowerAtSize*> columns_of(const Power& power, bool tables) {
+  std::vector<const PowerAtSize*> columns;
+  for (const PowerAtSize& size : power.sizes) columns.push_back(&size);
+  if (tables || columns.size() <= most_columns) return columns;
+  return {columns.front(), columns[columns.size() / 2], columns.back()};
+}
+
+std::string cell(const HypothesisPower* power) {
+  if (!power) return "-";
+  return fmt::format("{:.0f} % [{:.0f}, {:.0f}]", 100 * share_of(*power), 100 * power->interval.low,
+                     100 * power->interval.high);
+}
+
+std::string cell(const EstimatePrecision* one) {
+  if (!one || one->printed.n_hits == 0) return "none";
+  const char* often = one->printed.n_hits == one->printed.n_trials ? "" : "*";
+  return fmt::format("{} [{}, {}]{}", number(one->median_value), number(one->median_low),
+                     number(one->median_high), often);
+}
+
+void print_table(const Power& power, bool tables) {
+  const auto columns = columns_of(power, tables);
+  const PowerAtSize& largest = power.sizes.back();
+  const auto head = [&](const char* what) {
+    print("\n{:<20}", what);
+    for (const PowerAtSize* size : columns)
+      print(" {:>19}", fmt::format("{} people", size->participants));
+    print("\n");
+  };
+  if (!largest.hypotheses.empty()) head("hypothesis supported");
+  for (const HypothesisPower& one : largest.hypotheses) {
+    print("{:<20}", one.name + (one.declared ? " (declared)" : ""));
+    for (const PowerAtSize* size : columns) print(" {:>19}", cell(at_size(*size, one.name)));
+    print("\n");
+  }
+  head("figure [interval]");
+  std::string last;
+  for (const EstimatePrecision& one : largest.estimates) {
+    if (!tables && (!is_main(one) || name_of(one) == last)) continue;
+    if (tables && one.printed.n_hits == 0 && !is_main(one)) continue;
+    last = name_of(one);
+    print("{:<20}", tables ? full_name_of(one) : last);
+    for (const PowerAtSize* size : columns) print(" {:>19}", cell(at_size(*size, one)));
+    print("\n");
+  }
+}
+
+// Which hypotheses the largest study is likely to support.
+std::string sentence_of_hypotheses(const PowerAtSize& size) {
+  std::vector<std::string> likely, unlikely;
+  for (const HypothesisPower& one : size.hypotheses)
+    (share_of(one) >= wanted_power ? likely : unlikely).push_back(one.name);
+  if (likely.empty())
+    return fmt::format("With {} people, no hypothesis is supported in {:.0f} % of studies.",
+                       size.participants, 100 * wanted_power);
+  std::string text = fmt::format("With {} people, at least {:.0f} % of studies support {}.",
+                                 size.participants, 100 * wanted_power, fmt::join(likely, ", "));
+  if (!unlikely.empty()) text += fmt::format("\nFewer support {}.", fmt::join(unlikely, ", "));
+  return text;
+}
+
+std::string sentence_of_precision(const PowerAtSize& size) {
+  const EstimatePrecision* widest = nullptr;
+  const auto factor = [](const EstimatePrecision& one) {
+    return std::sqrt(one.median_high / one.median_low);
+  };
+  for (const EstimatePrecision& one : size.estimates)
+    if (is_main(one) && one.printed.n_hits > 0 && one.median_low > 0 &&
+        (!widest || factor(one) > factor(*widest)))
+      widest = &one;
+  if (!widest) return "";
+  return fmt::format(
+      "Least certain with {} people: {}, to within a factor of {:.2g}\n(printed in {:.0f} % of "
+      "studies).\n",
+      size.participants, name_of(*widest), factor(*widest), widest->printed.percent());
+}
+
+// JSON.
+
+ordered_json object_of(const HypothesisPower& one) {
+  return {{"hypothesis", one.name},
+          {"statement", one.statement},
+          {"declared", one.declared},
+          {"supported", share_of(one)},
+          {"supported_interval", {one.interval.low, one.interval.high}},
+          {"not_supported", one.not_supported.percent() / 100},
+          {"inconclusive", one.inconclusive.percent() / 100}};
+}
+
+ordered_json object_of(const EstimatePrecision& one) {
+  const bool any = one.printed.n_hits > 0;
+  ordered_json by = ordered_json::object();
+  for (const Coordinate& at : one.place.by) by[std::string(at.name)] = at.text;
+  const auto number = [&](double value) {
+    return any ? ordered_json(value) : ordered_json(nullptr);
+  };
+  return {{"measure", one.place.measure->name},
+          {"unit", one.place.measure->unit},
+          {"task", one.place.task},
+          {"condition", one.place.condition},
+          {"by", by},
+          {"reference_g",
+           one.place.reference_g ? ordered_json(*one.place.reference_g) : ordered_json(nullptr)},
+          {"printed", one.printed.percent() / 100},
+          {"value", number(one.median_value)},
+          {"low", number(one.median_low)},
+          {"high", number(one.median_high)},
+          {"sd_over_studies", one.sd ? ordered_json(*one.sd) : ordered_json(nullptr)}};
+}
+
+// Chart.
+
+std::string lines_of(const std::vector<std::string>& names, const std::string& prefix) {
+  std::string terms;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    terms += fmt::format(
+        "{}${}{} using 1:2:3:4 with yerrorlines pointtype {} pointsize 0.8 linewidth 1.5 "
+        "linecolor '{}' title {}",
+        i == 0 ? "" : ", ", prefix, i, series_sign(i), series_color(i), gnuplot_quoted(names[i]));
+  return terms;
+}
+
+}  // namespace
+
+void print_power(const ModelPower& found, bool tables) {
+  const Power& power = found.power;
+  print("protocol {}, model {}: {} simulated studies of each size (--seed {})\n", found.protocol,
+        found.model, power.n_studies, found.seed);
+  print_table(power, tables);
+  print("\n");
+  if (!power.sizes.back().hypotheses.empty())
+    print("{}\n", sentence_of_hypotheses(power.sizes.back()));
+  print("{}", sentence_of_precision(power.sizes.back()));
+  print(
+      "Figures and interval ends are medians over studies; *: not in all of them.\n"
+      "They hold for people of this model: repeat with others (--model).{}\n",
+      tables ? "" : "\nAll sizes and figures: --tables");
+}
+
+std::string as_json(const std::vector<ModelPower>& all) {
+  ordered_json models = ordered_json::array();
+  for (const ModelPower& found : all) {
+    ordered_json sizes = ordered_json::array();
+    for (const PowerAtSize& size : found.power.sizes) {
+      ordered_json hypotheses = ordered_json::array(), estimates = hypotheses;
+      for (const HypothesisPower& one : size.hypotheses) hypotheses.push_back(object_of(one));
+      for (const EstimatePrecision& one : size.estimates) estimates.push_back(object_of(one));
+      sizes.push_back({{"participants", size.participants},
+                       {"hypotheses", hypotheses},
+                       {"estimates", estimates}});
+    }
+    models.push_back({{"protocol", found.protocol},
+                      {"model", found.model},
+                      {"seed", found.seed},
+                      {"n_studies", found.power.n_studies},
+                      {"sizes", sizes}});
+  }
+  return ordered_json{{"models", models}}.dump(2) + "\n";
+}
+
+void draw_power(const ModelPower& found, const std::string& file) {
+  constexpr int width_px = 900, top_px = 108, plot_px = 330, bottom_px = 110;
+  const Power& power = found.power;
+  std::vector<std::string> hypotheses, figures;
+  std::string data;
+  for (const HypothesisPower& one : power.sizes.back().hypotheses) {
+    data += fmt::format("$h{} << END\n", hypotheses.size());
+    for (const PowerAtSize& size : power.sizes)
+      if (const HypothesisPower* at = at_size(size, one.name))
+        data += fmt::format("{} {} {} {}\n", size.participants, 100 * share_of(*at),
+                            100 * at->interval.low, 100 * at->interval.high);
+    data += "END\n";
+    hypotheses.push_back(one.name);
+  }
+  for (const EstimatePrecision& one : power.sizes.back().estimates) {
+    if (!is_main(one) || one.printed.n_hits == 0) continue;
+    data += fmt::format("$f{} << END\n", figures.size());
+    for (const PowerAtSize& size : power.sizes)
+      if (const EstimatePrecision* at = at_size(size, one); at && at->printed.n_hits > 0)
+        data += fmt::format("{} {} {} {}\n", size.participants, at->median_value, at->median_low,
+                            at->median_high);
+    data += "END\n";
+    figures.push_back(name_of(one));
+  }
+  const int largest = power.sizes.back().participants;
+  const auto panel = [&](double left, double right, const std::string& axes,
+                         const std::string& terms) {
+    return gnuplot_place(left, right, top_px, top_px + plot_px) +
+           fmt::format(
+               "set key at screen {}, screen 1-34*pixel center top horizontal maxcols 2 "
+               "samplen 1.5 font ',11'\nset xlabel 'participants in the study'\n"
+               "set xrange [0:{}]\n{}plot {}\n",
+               (left + right) / 2, 1.05 * largest + 1, axes, terms) +
+           "unset label\n";
+  };
+  draw_svg(file, [&](const std::string& svg) {
+    return gnuplot_header(
+               {svg, width_px, top_px + plot_px + bottom_px,
+                fmt::format("What a study of {} can find", found.protocol),
+                fmt::format(
+                    "{} simulated studies with people of the model {}. Left: with exact 95 % "
+                    "intervals; dotted: 80 %. Right: median figure and median interval. "
+                    "Made by: heft power (seed {})",
+                    power.n_studies, found.model, found.seed)}) +
+           data + "set multiplot\n" +
+           panel(0.1, 0.47, "set ylabel '% of studies that support it'\nset yrange [0:100]\n",
+                 "80 with lines dashtype 3 linecolor '#999999' notitle" +
+                     (hypotheses.empty() ? "" : ", " + lines_of(hypotheses, "h"))) +
+           panel(0.59, 0.97, "set ylabel 'g'\nset logscale y\nset yrange [*:*]\n",
+                 figures.empty() ? "NaN notitle" : lines_of(figures, "f")) +
+           "unset multiplot\n";
+  });
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,61 @@
+"""What a study can find: tables, JSON, chart, and refusals of heft power.
+
+Run: python3 tests/cli/population/power_test.py PATH_TO_HEFT
+"""
+import json
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from session_harness import PROTOCOLS, SessionTest, main
+
+SHORT = ["power", PROTOCOLS / "quick.toml", "--studies", 3, "--participants", "2,4", "--seed", 7]
+
+
+class Power(SessionTest):
+    def test_the_first_screen_is_a_screen(self):
+        chart = self.folder / "power.svg"
+        said = self.run_heft("power", PROTOCOLS / "paper.toml", "--studies", 2, "--participants",
+                             "2,3,4,5", "--seed", 7, "--chart", chart).stdout
+        lines = said.splitlines()
+        self.assertLessEqual(len(lines), 25)
+        self.assertLessEqual(max(map(len, lines)), 80)
+        for words in ("2 simulated studies", "E2-H1", "threshold C2 200 g", "--tables", "5 people"):
+            self.assertIn(words, said)
+        drawn = chart.read_text(encoding="utf-8")
+        for words in "E1-H2", "participants in the study", "JND C2 200 g", "seed 7":
+            self.assertIn(words, drawn)
+        self.assertEqual([p.name for p in self.folder.glob("power*")], ["power.svg"])
+
+    def test_models_stand_in_json(self):
+        words = [*SHORT, "--model", "simulated", "--model", "coin", "--json"]
+        found = json.loads(self.run_heft(*words).stdout)
+        self.assertEqual(json.loads(self.run_heft(*words, "--jobs", 1).stdout), found)
+        simulated, coin = found["models"]
+        self.assertEqual((simulated["model"], coin["model"], coin["seed"]), ("simulated", "coin", 7))
+        for model in found["models"]:
+            self.assertEqual([size["participants"] for size in model["sizes"]], [2, 4])
+            for size in model["sizes"]:
+                for one in size["hypotheses"]:
+                    low, high = one["supported_interval"]
+                    self.assertTrue(0 <= low <= one["supported"] <= high <= 1)
+                    self.assertAlmostEqual(one["supported"] + one["not_supported"] +
+                                           one["inconclusive"], 1)
+
+        def correct(model):
+            return next(one["value"] for one in model["sizes"][1]["estimates"]
+                        if one["measure"] == "sorting_equivalence" and one["condition"] == "C2")
+        self.assertGreater(correct(simulated), 90)
+        self.assertLess(correct(coin), 60)
+
+    def test_mistakes_are_refused(self):
+        for words in (["--participants", "2,,4"], ["--participants", "0"], ["--participants", "x"],
+                      ["--participants", "2,"], ["--studies", "1"], ["--model", "human"],
+                      ["--model", "simulatd"], ["--chart", "a.png"], ["--json", "--tables"],
+                      ["--model", "coin", "--model", "simulated", "--chart", "a.svg"]):
+            self.run_heft("power", PROTOCOLS / "quick.toml", *words, expect=2)
+        self.run_heft("power", self.folder / "missing.toml", expect=1)
+
+
+if __name__ == "__main__":
+    main("__main__")
