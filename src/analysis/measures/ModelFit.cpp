@@ -121,15 +121,11 @@ EstimateTable predictive_checks_table() {
           TablePlace::csv};
 }
 
-std::string model_fit_finding(const Estimates& all) {
+std::string misfit_sentence(const Estimates& all) {
   const auto checks = estimates_of(all, predictive_p.name);
-  if (checks.empty()) return "";
-  const auto n = static_cast<double>(checks.size());
   std::vector<std::string> missed;
-  double least_p = 1;
   for (const StudyEstimate* check : checks) {
-    least_p = std::min(least_p, *check->value);
-    if (*check->value * n >= 0.05) continue;
+    if (*check->value * static_cast<double>(checks.size()) >= 0.05) continue;
     const std::string reference = check->text_at("reference_g");
     const auto at_figure = [&](const Measure& measure) {
       return find_estimate(all, measure.name,
@@ -142,12 +138,17 @@ std::string model_fit_finding(const Estimates& all) {
                                  check->at("figure")->text, reference, check->condition,
                                  *at_figure(seen)->value, *model.low, *model.high));
   }
-  if (missed.empty())
-    return fmt::format(
-        "The indecision model predicts what was seen (predictive checks, smallest p = {:.2f}).",
-        least_p);
+  if (missed.empty()) return "";
   return fmt::format("The indecision model does not predict what was seen: {}. Doubt thresholds.",
                      some_of(missed, 3));
+}
+
+std::string fit_sentence(const Estimates& all) {
+  const auto checks = estimates_of(all, predictive_p.name);
+  if (checks.empty() || !misfit_sentence(all).empty()) return "";
+  double least_p = 1;
+  for (const StudyEstimate* check : checks) least_p = std::min(least_p, *check->value);
+  return fmt::format("The model predicts what was seen (smallest p = {:.2f}).", least_p);
 }
 
 }  // namespace heft

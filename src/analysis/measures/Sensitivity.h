@@ -40,7 +40,9 @@ void put_model_fit(Estimates& all, std::span<const ReferenceSensitivity> rows,
                    const ComparisonTrials& trials, StaircaseRuns& runs);
 EstimateTable model_fit_table();
 EstimateTable predictive_checks_table();
-/// "The indecision model predicts what was seen", or what it does not; empty: nothing was checked.
-std::string model_fit_finding(const Estimates& all);
+/// What the predictive checks say: which figures the model misses; that it misses none. Empty: it
+/// is the other one, or nothing was checked.
+std::string misfit_sentence(const Estimates& all);
+std::string fit_sentence(const Estimates& all);
 
 }  // namespace heft

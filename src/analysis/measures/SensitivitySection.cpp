@@ -254,8 +254,8 @@ class SensitivitySection final : public Section {
     if (!thresholds.empty() && found.empty())
       found.emplace_back(
           "75 %-correct discrimination threshold: not identifiable from these trials.");
-    if (std::string fit = model_fit_finding(summary.estimates); !fit.empty())
-      found.push_back(std::move(fit));
+    if (const std::string fits = fit_sentence(summary.estimates); !fits.empty())
+      found.back() += " " + fits;
     return found;
   }
 

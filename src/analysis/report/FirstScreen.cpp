@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "analysis/measures/Sensitivity.h"
 #include "analysis/report/Notes.h"
 #include "analysis/report/Report.h"
 #include "analysis/report/Table.h"
@@ -187,7 +188,8 @@ std::string incident_sentence(const Summary& summary) {
 }  // namespace
 
 std::vector<std::string> attention_sentences(const Summary& summary) {
-  std::vector<std::string> sentences{generality_sentence(summary)};
+  std::vector<std::string> sentences{generality_sentence(summary),
+                                     misfit_sentence(summary.estimates)};
   for (const std::string& note : summary.notes)
     if (note != simulated_note(summary)) sentences.push_back(note);
   for (const auto sentence :
