@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <numeric>
+#include <set>
 #include <thread>
 #include <tuple>
 
@@ -222,9 +223,8 @@ std::vector<EstimatePrecision> estimates_of(const Findings& studies) {
 std::optional<Power> power_of(const PowerRequest& request,
                               const std::function<void(double)>& progress,
                               const std::atomic<bool>& stop) {
-  std::vector<int> sizes = request.participants;
-  std::ranges::sort(sizes);
-  sizes.erase(std::ranges::unique(sizes).begin(), sizes.end());
+  const std::set<int> distinct(request.participants.begin(), request.participants.end());
+  const std::vector<int> sizes(distinct.begin(), distinct.end());
   Studies studies(request, sizes, stop);
   if (!studies.run(progress)) return std::nullopt;
   Power power{request.studies, {}};

@@ -1,4 +1,5 @@
 // What was found beside the paper's own figures.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -50,6 +51,27 @@ TEST(PublishedBeside, HasThePapersIntervalsAndWhatWasFound) {
   const StudyEstimate& unsure = named(summary, "C1 I don't know");
   EXPECT_FALSE(interval_of(*unsure.published).has_value());  // the paper gives no SD
   EXPECT_EQ(named(summary, "C1 correct").published->sd, 9.6);
+}
+
+// Of 50, 60 and 400 g; ours is the mean of a log-normal distribution.
+TEST(PublishedBeside, ThePapersArithmeticMeanStandsBesideOurs) {
+  std::vector<SessionData> sessions;
+  for (const double jnd_g : {50.0, 60.0, 400.0}) {
+    const auto id = static_cast<std::int64_t>(sessions.size()) + 1;
+    sessions.push_back(session(id, std::to_string(id), Purpose::main, "human"));
+    add_staircase(sessions.back(), "s", 200, jnd_g);
+  }
+  const Summary summary = summarize({"x.db", sessions}, "");
+  const auto figures_of = [&](std::string_view name) {
+    return fmt::format(
+        "{}",
+        fmt::join(std::ranges::find(summary.hypotheses, name, &Hypothesis::name)->figures, "\n"));
+  };
+  const double ours = *find_estimate(summary.estimates, "jnd", {{"reference_g", "200"}})->value;
+  EXPECT_GT(std::abs(ours - 170), 1);
+  EXPECT_THAT(figures_of("E2-H1"), HasSubstr(fmt::format("JND at 200 g: {:.1f} g", ours)));
+  EXPECT_THAT(figures_of("E2-H1"), HasSubstr("arithmetic mean 170.0, published "));
+  EXPECT_THAT(figures_of("E2-H2"), HasSubstr("arithmetic mean 0.85, published "));
 }
 
 TEST(PublishedBeside, IsOnlyOfWhatThePaperMeasured) {

@@ -55,14 +55,31 @@ std::string_view began(const StudyEstimate& jnd) {
   return jnd.text_at("staircases") == "from above" ? " (staircases from above)" : "";
 }
 
+// The paper gives arithmetic means, so this is what its figure is to be compared with.
+std::optional<double> arithmetic_mean_g(const Summary& summary, const StudyEstimate& jnd) {
+  const StudyEstimate* mean = find_estimate(summary.estimates, "jnd_paper_mean",
+                                            {{"staircases", jnd.text_at("staircases")},
+                                             {"condition", jnd.condition},
+                                             {"reference_g", jnd.text_at("reference_g")},
+                                             {"method", jnd.text_at("method")}});
+  return mean ? mean->value : std::nullopt;
+}
+
+// "; arithmetic mean 92.1, published 91.1"
+std::string beside_paper(const std::optional<double>& mean, double published, int decimals) {
+  const std::string own = mean ? fmt::format("arithmetic mean {:.{}f}, ", *mean, decimals) : "";
+  return fmt::format("; {}published {:.{}f}", own, published, decimals);
+}
+
 constexpr std::string_view no_staircase = "no finished staircase in the paper's technique";
 
 std::vector<std::string> jnd_figures(const Summary& summary) {
   std::vector<std::string> figures;
   for (const StudyEstimate* jnd : jnds_of(summary))
-    figures.push_back(fmt::format("JND{} at {:g} g: {:.1f} g{}, n = {}{}", began(*jnd),
-                                  *jnd->reference_g, *jnd->value, within(*jnd), jnd->n,
-                                  beside(*jnd, " g")));
+    figures.push_back(
+        fmt::format("JND{} at {:g} g: {:.1f} g{}, n = {}{} g", began(*jnd), *jnd->reference_g,
+                    *jnd->value, within(*jnd), jnd->n,
+                    beside_paper(arithmetic_mean_g(summary, *jnd), jnd->published->value, 1)));
   if (figures.empty()) figures.emplace_back(no_staircase);
   const StudyEstimate* rising = find_estimate(summary.estimates, "jnd_rising");
   figures.push_back(rising ? fmt::format("JND rises from each reference to the next in {} of {} "
@@ -81,9 +98,11 @@ std::vector<std::string> ratio_figures(const Summary& summary) {
         jnd->low
             ? fmt::format(" [{:.2f}, {:.2f}]", *jnd->low / reference_g, *jnd->high / reference_g)
             : "";
-    figures.push_back(fmt::format("JND{} / reference at {:g} g: {:.2f}{}; published {:.2f}",
-                                  began(*jnd), reference_g, *jnd->value / reference_g, interval,
-                                  jnd->published->value / reference_g));
+    std::optional<double> mean = arithmetic_mean_g(summary, *jnd);
+    if (mean) *mean /= reference_g;
+    figures.push_back(fmt::format("JND{} / reference at {:g} g: {:.2f}{}{}", began(*jnd),
+                                  reference_g, *jnd->value / reference_g, interval,
+                                  beside_paper(mean, jnd->published->value / reference_g, 2)));
   }
   if (figures.empty()) figures.emplace_back(no_staircase);
   return figures;
