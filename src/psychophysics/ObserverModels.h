@@ -74,8 +74,8 @@ struct IndecisionShares {
 /// @param level comparison minus reference
 IndecisionShares indecision_shares(const IndecisionParameters& parameters, double level);
 
-/// Trials with a difference (signal) and without (noise), and "different" responses in each, which
-/// need not be whole: a model's are expected numbers.
+/// Trials with a difference (signal) and without (noise), and "different" responses in each. Draws
+/// of a model may exceed the range of int.
 struct DetectionCounts {
   double n_signal = 0, n_hits = 0;
   double n_noise = 0, n_false_alarms = 0;

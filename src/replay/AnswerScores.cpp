@@ -31,13 +31,18 @@ MeanOverPeople mean_over_people(const Trials& trials, const OfTrial& value) {
   return {*mean(means), student_t_interval(means)};
 }
 
-// Expected numbers of "different" answers of one person.
+// Of one trial: the logged answer, or all draws of a model.
+struct DifferentAnswers {
+  int n_different = 0, n = 0;
+};
+
+// "Different" answers of one person.
 struct Answered {
   DetectionCounts counts;
 
-  void add(bool has_difference, double share_different) {
-    (has_difference ? counts.n_signal : counts.n_noise) += 1;
-    (has_difference ? counts.n_hits : counts.n_false_alarms) += share_different;
+  void add(bool has_difference, const DifferentAnswers& answers) {
+    (has_difference ? counts.n_signal : counts.n_noise) += answers.n;
+    (has_difference ? counts.n_hits : counts.n_false_alarms) += answers.n_different;
   }
   void add(const Answered& other, double sign = 1) {
     counts.n_signal += sign * other.counts.n_signal;
@@ -56,13 +61,13 @@ std::optional<Interval> jackknife_interval(double value, const std::vector<doubl
   return Interval{value - reach, value + reach};
 }
 
-std::optional<DetectionOverPeople> detection_of(const Trials& trials,
-                                                const OfTrial& share_different) {
+std::optional<DetectionOverPeople> detection_of(
+    const Trials& trials, const std::function<DifferentAnswers(const JudgedTrial&)>& answers_to) {
   std::map<std::string, Answered> people;
   Answered all;
   for (const JudgedTrial* trial : trials) {
     if (!task_named(trial->task).detects) return std::nullopt;
-    people[trial->person].add(trial->has_difference, share_different(*trial));
+    people[trial->person].add(trial->has_difference, answers_to(*trial));
   }
   for (const auto& [person, answered] : people) all.add(answered);
   const auto found = detection(all.counts);
@@ -81,10 +86,6 @@ std::optional<DetectionOverPeople> detection_of(const Trials& trials,
   over.d_prime_interval = jackknife_interval(over.d_prime, d_primes);
   over.criterion_interval = jackknife_interval(over.criterion, criteria);
   return over;
-}
-
-double share_different(const AnswerDraws& draws) {
-  return 1 - static_cast<double>(draws.n_of("none")) / draws.n;
 }
 
 void add_to(Confusion& confusion, const std::string& logged,
@@ -108,8 +109,11 @@ ModelScores scores_of(const Trials& trials, const Trials& with_catches, std::siz
   scores.difference = mean_over_people(trials, difference);
   scores.n_people_better = static_cast<int>(
       std::ranges::count_if(means_of_people(trials, difference), [](double d) { return d > 0; }));
+  // Every draw counts: the correction of the rates would pull the few catch trials to 1/2, and a
+  // model that does not look would have a d' below 0.
   scores.detection = detection_of(with_catches, [model](const JudgedTrial& trial) {
-    return share_different(trial.models[model]);
+    const AnswerDraws& draws = trial.models[model];
+    return DifferentAnswers{draws.n - draws.n_of("none"), draws.n};
   });
   for (const JudgedTrial* trial : trials) {
     const AnswerDraws& draws = trial->models[model];
@@ -214,8 +218,9 @@ std::vector<GroupScores> scores_of(const std::vector<JudgedTrial>& trials, std::
     group.shares =
         mean_over_people(of_key, [&](const JudgedTrial& trial) { return shares.log_score(trial); });
     group.n_people = static_cast<int>(by_person(of_key, [](const auto&) { return 0.0; }).size());
-    group.person = detection_of(
-        compared, [](const JudgedTrial& trial) { return trial.answer == "none" ? 0.0 : 1.0; });
+    group.person = detection_of(compared, [](const JudgedTrial& trial) {
+      return DifferentAnswers{trial.answer == "none" ? 0 : 1, 1};
+    });
     for (std::size_t model = 0; model < n_models; ++model)
       group.models.push_back(scores_of(of_key, compared, model));
     all.push_back(std::move(group));

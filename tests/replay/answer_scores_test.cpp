@@ -130,10 +130,23 @@ TEST(AnswerScores, SensitivityHasTheJackknifesIntervalOverPeople) {
     without.push_back(d_prime(33 - hits, 10 - alarms, 30));
   double sum_squared = 0;
   for (const double one : without) sum_squared += std::pow(one - *mean(without), 2);
-  EXPECT_NEAR(all.person->d_prime_interval->high - all.person->d_prime,
-              3.182446305 * std::sqrt(0.75 * sum_squared), 1e-8);
-  EXPECT_DOUBLE_EQ(all.models[0].detection->d_prime, all.person->d_prime)
-      << "a model that answers the same";
+  const double reach = 3.182446305 * std::sqrt(0.75 * sum_squared);
+  EXPECT_NEAR(all.person->d_prime_interval->high - all.person->d_prime, reach, 1e-8);
+  EXPECT_NEAR(all.person->d_prime - all.person->d_prime_interval->low, reach, 1e-8);
+  const auto z = [](double n) { return normal_quantile((n + 0.5) / 161); };
+  EXPECT_DOUBLE_EQ(all.models[0].detection->d_prime, z(4 * 33) - z(4 * 10))
+      << "a model that answers the same in each of 4 draws";
+}
+
+// One catch trial among 40: with the rates of trials, (0.1 + 1/2) / 2 would be its false alarms.
+TEST(AnswerScores, AModelThatDoesNotLookHasNoSensitivity) {
+  std::vector<JudgedTrial> trials;
+  for (int i = 0; i < 40; ++i)
+    trials.push_back(comparison(std::to_string(i % 4), i == 0 ? 0 : 50, "none",
+                                {{{"none", 9000}, {"comparison", 1000}}}));
+  const GroupScores all = scores_of(trials, 1, ScoreGroups::all).front();
+  EXPECT_NEAR(all.models[0].detection->d_prime, 0, 0.001);
+  EXPECT_NEAR(all.models[0].detection->criterion, -normal_quantile(0.1), 0.001);
 }
 
 TEST(AnswerScores, LevelsAreComparedWithTheCatchTrialsOfTheirReference) {
