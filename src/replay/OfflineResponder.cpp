@@ -46,7 +46,9 @@ class Model {
   using Draws = std::vector<std::unique_ptr<Responder>>;
 
   Model(const LoggedSession& session, const WhoAnswers& responder, const JudgeRequest& request)
-      : session_(session), named_(named(responder)), request_(request) {}
+      : session_(session), named_(named(responder)), name_(to_text(responder)), request_(request) {}
+
+  const std::string& name() const { return name_; }
 
   const Draws& in_effect(const TrialRow& trial) {
     Draws& draws = by_setup_[trial.setup_index];
@@ -87,6 +89,7 @@ class Model {
 
   const LoggedSession& session_;
   ResolvedModel named_;
+  std::string name_;  ///< as given
   const JudgeRequest& request_;
   std::map<int, Draws> by_setup_;
 };
@@ -127,42 +130,34 @@ class SessionJudge {
       : session_(session), what_if_(what_if) {
     for (const WhoAnswers& responder : request.responders)
       models_.emplace_back(session, responder, request);
-    judgments_.n_unanswered.resize(models_.size());
+  }
+
+  void leave_out(const AttemptFold& attempt, std::string_view why) {
+    judgments_.left_out.push_back(
+        {session_.row.session_id, attempt.first_plan.trial_number, std::string(why)});
   }
 
   void judge(const AttemptFold& attempt, const std::vector<FrameRow>& rows) {
-    if (rows.empty()) {
-      ++judgments_.n_without_frames;
-      return;
-    }
+    if (rows.empty()) return leave_out(attempt, lacks_frames);
     const TrialPlan& plan = attempt.first_plan;
     const auto logged_protocol = session_.protocol_of(attempt.row);
     const Protocol& protocol = what_if_ ? *what_if_ : *logged_protocol;
     const TaskBlock& block = task_block(protocol, plan.block);
     const auto [actions, before] = logged_answer(attempt);
     const auto logged = answered(block, plan, seed(), actions);
-    if (!logged || !logged->n_answers()) {
-      ++judgments_.n_numbers;
-      return;
-    }
+    if (!logged || !logged->n_answers()) return leave_out(attempt, is_a_number);
     const Stage stage = stage_of(protocol, plan.n_slots());
     const auto frames =
         seen_frames(attempt, what_if_ ? supposed(rows, attempt, protocol) : rows, before);
     const auto seen = frames_with_touches(frames, stage);
-    if (seen.empty()) {
-      ++judgments_.n_untouched;
-      return;
-    }
+    if (seen.empty()) return leave_out(attempt, is_untouched);
     ScreenState screen;
     block.trial(plan, seed())->show(screen);
     JudgedTrial trial = judged_trial(plan, *logged);
     const TrialView view{plan.trial_number, plan.attempt, plan.task, stage, screen.offer};
     for (std::size_t i = 0; i < models_.size(); ++i) {
       const auto draws = draws_of(models_[i].in_effect(attempt.row), view, seen, block, plan);
-      if (!draws) {
-        ++judgments_.n_unanswered[i];
-        return;
-      }
+      if (!draws) return leave_out(attempt, no_answer_of(models_[i].name()));
       trial.models.push_back(*draws);
     }
     judgments_.shown_s += frames.back().t_s;
@@ -212,12 +207,12 @@ class SessionJudge {
 
 void Judgments::add(Judgments more) {
   std::ranges::move(more.trials, std::back_inserter(trials));
-  n_without_frames += more.n_without_frames;
-  n_untouched += more.n_untouched;
-  n_numbers += more.n_numbers;
-  n_unanswered.resize(more.n_unanswered.size());
-  for (std::size_t i = 0; i < n_unanswered.size(); ++i) n_unanswered[i] += more.n_unanswered[i];
+  std::ranges::move(more.left_out, std::back_inserter(left_out));
   shown_s += more.shown_s;
+}
+
+std::string no_answer_of(std::string_view responder) {
+  return fmt::format("without an answer of {}", responder);
 }
 
 Judgments judge_session(const LogReader& reader, const LoggedSession& session,
@@ -229,6 +224,8 @@ Judgments judge_session(const LogReader& reader, const LoggedSession& session,
   for (const auto& [index, attempt] : fold.attempts) {
     if (attempt.row.status == TrialStatus::completed)
       judge.judge(attempt, reader.frames(session.row.session_id, index));
+    else
+      judge.leave_out(attempt, attempt.row.status == TrialStatus::voided ? is_voided : is_open);
     progress(++n_done / static_cast<double>(fold.attempts.size()));
   }
   return judge.take();

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "apparatus/LoggedSession.h"
@@ -19,17 +21,27 @@ struct JudgeRequest {
   std::uint64_t seed = 1;
 };
 
-/// The judged trials, and how many completed ones were left out, by reason.
+/// Why a trial has no score.
+struct LeftOutTrial {
+  std::int64_t session_id = 0;
+  int trial_number = 0;
+  std::string why;
+};
+
 struct Judgments {
   std::vector<JudgedTrial> trials;
-  int n_without_frames = 0;
-  int n_untouched = 0;  ///< no cube was seen touched, so there was nothing to judge
-  int n_numbers = 0;    ///< answered by a number: scores need a countable set of answers
-  std::vector<int> n_unanswered = {};  ///< by responder: it had no answer to the trial
+  std::vector<LeftOutTrial> left_out;  ///< every other attempt at a trial
   double shown_s = 0;                  ///< total duration of the judged trials' frames
 
   void add(Judgments more);
 };
+
+// Why trials are left out. A model without an answer: no_answer_of(its name).
+inline constexpr std::string_view is_voided = "voided", is_open = "not completed",
+                                  lacks_frames = "without frames in the log",
+                                  is_untouched = "in which no cube was touched",
+                                  is_a_number = "answered by a number";
+std::string no_answer_of(std::string_view responder);
 
 /// Judges every completed trial of the session; of the introduction, the frames up to the first
 /// choice. A trial that one of the models does not answer is left out for all.

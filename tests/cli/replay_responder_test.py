@@ -191,7 +191,7 @@ class ReplayResponder(SessionTest):
         self.assertIn("without frames", said)
         judged = self.judged("--responder", "coin")
         self.assertEqual((judged["trials"], judged["all"]), ([], None))
-        self.assertEqual(judged["left_out"]["without_frames"],
+        self.assertEqual(len([t for t in judged["left_out"] if t["why"] == "without frames in the log"]),
                          query(self.db, "select count(*) from trial")[0][0])
 
     def test_a_changed_log_is_not_judged(self):
@@ -232,7 +232,10 @@ class ReplayResponder(SessionTest):
         protocol = PROTOCOLS / "paper.toml"
         self.run_heft("simulate", protocol, "--participants", 1, "--seed", 3, "--frames", "--db",
                       self.db)
-        for words in ["--set", "coupling.stiffness_n_per_m=100"], ["--responder", "simulated", "criterion_only"]:
+        long_name = self.write("a_long_name_of_a_model_of_people.toml", "lapse_rate = 0.1\n")
+        names = [f"simulated:{long_name}", "criterion_only", "coin", "always_yes", "always_no", "simulated"]
+        for words in (["--set", "coupling.stiffness_n_per_m=100"], ["--responder", "simulated"],
+                      ["--responder", *names[1:4]], ["--responder", *names]):
             short = self.run_heft("replay", "--db", self.db, *words).stdout
             every = self.run_heft("replay", "--db", self.db, *words, "--tables").stdout
             self.assertIn("--tables", short)

@@ -3,7 +3,9 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "SourceFolder.h"
@@ -14,8 +16,9 @@ namespace heft::testing {
 
 class StoredSession {
  public:
+  /// @param stop_after stops within the trial after so many, which is voided; none: to the end
   StoredSession(const Protocol& protocol, const std::string& responder, std::uint64_t seed,
-                bool keep_frames = true)
+                bool keep_frames = true, std::optional<int> stop_after = {})
       : path_(std::filesystem::temp_directory_path() /
               ("heft-stored-" + std::to_string(::getpid()) + ".db")) {
     remove();
@@ -24,6 +27,11 @@ class StoredSession {
     const SessionRequest request{resolve(model, protocol, seed), "1"};
     RunnerOptions runner;
     runner.keep_frames = keep_frames;
+    std::atomic<bool> stop = false;
+    runner.stop = &stop;
+    runner.progress = [&](const Engine& engine) {
+      if (stop_after && engine.n_completed() >= *stop_after && engine.trial_is_open()) stop = true;
+    };
     const std::int64_t id = SessionArchive(path_.string()).store(compute_session(request, runner));
     reader_.emplace(path_.string());
     session_ = load_session(*reader_, path_.string(), id);

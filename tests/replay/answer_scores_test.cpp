@@ -138,6 +138,16 @@ TEST(AnswerScores, SensitivityHasTheJackknifesIntervalOverPeople) {
       << "a model that answers the same in each of 4 draws";
 }
 
+TEST(AnswerScores, SensitivityOfTwoPeopleHasAnInterval) {
+  std::vector<JudgedTrial> trials;
+  for (const char* person : {"1", "2"})
+    for (const double level_g : {0, 50})
+      trials.push_back(comparison(person, level_g, "none", {{{"none", 2}}}));
+  EXPECT_TRUE(scores_of(trials, 1, ScoreGroups::all).front().person->d_prime_interval);
+  trials.resize(2);
+  EXPECT_FALSE(scores_of(trials, 1, ScoreGroups::all).front().person->d_prime_interval);
+}
+
 // One catch trial among 40: with the rates of trials, (0.1 + 1/2) / 2 would be its false alarms.
 TEST(AnswerScores, AModelThatDoesNotLookHasNoSensitivity) {
   std::vector<JudgedTrial> trials;

@@ -71,7 +71,8 @@ TEST(Judging, WhoNeverFindsADifferenceAnswersSoWhateverWasLogged) {
     if (trial.task != "comparison") continue;
     ++n_comparisons;
     EXPECT_EQ(trial.n_answers, 3);
-    EXPECT_EQ(trial.models[0].n_of("none"), trial.models[0].n);
+    EXPECT_EQ(trial.models[0].n, 40) << "draws";
+    EXPECT_EQ(trial.models[0].n_of("none"), 40);
   }
   EXPECT_GT(n_comparisons, 0);
 }
@@ -93,14 +94,39 @@ TEST(Judging, UntouchedTrialsAreLeftOut) {
   const StoredSession stored(shipped_protocol("quick"), "coin", 3);
   const Judgments found = judged(stored, "simulated");
   EXPECT_TRUE(found.trials.empty());
-  EXPECT_EQ(found.n_untouched, stored.n_completed());
+  EXPECT_EQ(std::ssize(found.left_out), stored.n_completed());
+  for (std::size_t i = 0; i < found.left_out.size(); ++i) {
+    EXPECT_EQ(found.left_out[i].session_id, stored.id());
+    EXPECT_EQ(found.left_out[i].trial_number, static_cast<int>(i) + 1);
+    EXPECT_EQ(found.left_out[i].why, is_untouched);
+  }
+}
+
+TEST(Judging, VoidedTrialsAreLeftOut) {
+  const StoredSession stored(shipped_protocol("quick"), "simulated", 3, true, 4);
+  const Judgments found = judged(stored, "simulated");
+  EXPECT_EQ(found.trials.size(), 4u);
+  ASSERT_EQ(found.left_out.size(), 1u);
+  EXPECT_EQ(found.left_out[0].why, is_voided);
+  EXPECT_EQ(found.left_out[0].trial_number, 5);
+}
+
+TEST(Judging, SessionsArePooled) {
+  const StoredSession stored(shipped_protocol("quick"), "simulated", 3, true, 4);
+  const Judgments one = judged(stored, "simulated");
+  Judgments both = one;
+  both.add(one);
+  EXPECT_EQ(both.trials.size(), 8u);
+  EXPECT_EQ(both.left_out.size(), 2u);
+  EXPECT_EQ(both.shown_s, 2 * one.shown_s);
 }
 
 TEST(Judging, TrialsWithoutFramesAreLeftOut) {
   const StoredSession stored(shipped_protocol("quick"), "simulated", 3, false);
   const Judgments found = judged(stored, "coin");
   EXPECT_TRUE(found.trials.empty());
-  EXPECT_EQ(found.n_without_frames, stored.n_completed());
+  EXPECT_EQ(std::ranges::count(found.left_out, lacks_frames, &LeftOutTrial::why),
+            stored.n_completed());
 }
 
 TEST(Judging, TheLoggedPhysicsShowsTheLoggedFrames) {

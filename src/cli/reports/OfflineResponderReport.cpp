@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <ranges>
 #include <set>
 
 #include "base/Names.h"
@@ -38,49 +41,93 @@ std::string name_of(const GroupScores& group) {
   return text;
 }
 
-void print_left_out(const JudgedLog& log) {
-  const Judgments& judgments = log.judgments;
-  std::vector<std::string> why;
-  const auto add = [&](int n, const std::string& text) {
-    if (n > 0) why.push_back(fmt::format("{} {}", n, text));
-  };
-  add(judgments.n_without_frames, "without frames in the log");
-  add(judgments.n_untouched, "in which no cube was touched");
-  add(judgments.n_numbers, "answered by a number");
-  for (std::size_t i = 0; i < log.names.size(); ++i)
-    add(judgments.n_unanswered[i], fmt::format("without an answer of {}", log.names[i]));
-  if (!why.empty()) print("left out: {}\n", fmt::to_string(fmt::join(why, ", ")));
+// In order of first appearance.
+using NamesByReason = std::vector<std::pair<std::string, std::vector<LeftOutTrial>>>;
+
+NamesByReason left_out_by_reason(const Judgments& judgments) {
+  NamesByReason reasons;
+  for (const LeftOutTrial& trial : judgments.left_out) {
+    auto of = std::ranges::find(reasons, trial.why, &NamesByReason::value_type::first);
+    if (of == reasons.end()) of = reasons.insert(of, {trial.why, {}});
+    of->second.push_back(trial);
+  }
+  return reasons;
 }
+
+// @return how many lines
+int print_left_out(const Judgments& judgments) {
+  const NamesByReason reasons = left_out_by_reason(judgments);
+  for (const auto& [why, trials] : reasons)
+    print("left out: {} {}\n", counted(std::ssize(trials), "trial"), short_name(why, 54));
+  return static_cast<int>(reasons.size());
+}
+
+// "1-3, 7": numbers in ascending order.
+std::string ranges_of(const std::vector<int>& numbers) {
+  std::vector<std::string> ranges;
+  for (std::size_t first = 0; first < numbers.size();) {
+    std::size_t last = first;
+    while (last + 1 < numbers.size() && numbers[last + 1] <= numbers[last] + 1) ++last;
+    ranges.push_back(numbers[first] == numbers[last]
+                         ? fmt::format("{}", numbers[first])
+                         : fmt::format("{}-{}", numbers[first], numbers[last]));
+    first = last + 1;
+  }
+  return fmt::to_string(fmt::join(ranges, ", "));
+}
+
+void print_names_of_left_out(const Judgments& judgments) {
+  for (const auto& [why, trials] : left_out_by_reason(judgments)) {
+    std::map<std::int64_t, std::vector<int>> by_session;
+    for (const LeftOutTrial& trial : trials)
+      by_session[trial.session_id].push_back(trial.trial_number);
+    print("\nleft out, {}\n", why);
+    for (const auto& [session_id, numbers] : by_session)
+      print("  session {}: trials {}\n", session_id, ranges_of(numbers));
+  }
+}
+
+constexpr std::size_t column_width = 16;
 
 void print_models(const JudgedLog& log, const GroupScores& all) {
-  print("\n{:<{}} {:<22} {:>11} {:>9} {:>9}\n", "", name_width, "log score a trial", "own answers",
-        "agreement", "with own");
+  const bool several = log.names.size() > 1;
+  print("\n{:<{}} {:<21} {:>5} {:>11}  {}\n", "", column_width, "log score a trial", "own",
+        "% agreement", several ? "minus " + short_name(log.names[0], 13) : "");
   for (std::size_t i = 0; i < log.names.size(); ++i) {
     const ModelScores& model = all.models[i];
-    print("{:<{}} {:<22} {:>11.2f} {:>9} {:>9}\n", short_name(log.names[i]), name_width,
-          text_of(model.log_score), model.own_log_score.value, percent_of(model.agreement),
-          percent_of(model.own_agreement));
+    print(
+        "{:<{}} {:<21} {:>5.2f} {:>11}{}\n", short_name(log.names[i], column_width), column_width,
+        text_of(model.log_score), model.own_log_score.value,
+        fmt::format("{:.1f}/{:.1f}", 100 * model.agreement.value, 100 * model.own_agreement.value),
+        i == 0 ? "" : "  " + text_of(model.difference));
   }
-  print("{:<{}} {}\n", "shares of the answers", name_width, text_of(all.shares));
-  print("{:<{}} {:.2f}\n", "chance", name_width, all.chance.value);
-  if (log.names.size() > 1) print("\n");
-  for (std::size_t i = 1; i < log.names.size(); ++i)
-    print("{} - {}: {}, better for {} of {} people\n", short_name(log.names[i], 16),
-          short_name(log.names[0], 16), text_of(all.models[i].difference),
-          all.models[i].n_people_better, all.n_people);
+  print("{:<{}} {}\n", "shares", column_width, text_of(all.shares));
+  print("{:<{}} {:.2f}\n", "chance", column_width, all.chance.value);
 }
 
-void print_groups(const JudgedLog& log, const std::vector<GroupScores>& groups) {
-  constexpr std::size_t most_models = 3;
+void print_groups(const JudgedLog& log, const std::vector<GroupScores>& groups, int most_lines) {
+  constexpr std::size_t most_models = 3, group_width = 22;
+  const int heading = 2;
+  const auto n_groups = static_cast<int>(groups.size());
+  if (most_lines < heading + 2) return;
+  const int n_shown = n_groups + heading <= most_lines ? n_groups : most_lines - heading - 1;
   const std::size_t n = std::min(log.names.size(), most_models);
-  print("\n{:<26} {:>6}", "log score by task", "trials");
+  print("\n{:<{}} {:>5}", "log score by task", group_width, "n");
   for (std::size_t i = 0; i < n; ++i) print(" {:>14}", short_name(log.names[i], 14));
-  print(" {:>7}\n", "shares");
-  for (const GroupScores& group : groups) {
-    print("{:<26} {:>6}", name_of(group), group.n_trials);
+  print(" {:>6}\n", "shares");
+  for (const GroupScores& group : groups | std::views::take(n_shown)) {
+    print("{:<{}} {:>5}", short_name(name_of(group), group_width), group_width, group.n_trials);
     for (std::size_t i = 0; i < n; ++i) print(" {:>14.2f}", group.models[i].log_score.value);
-    print(" {:>7.2f}\n", group.shares.value);
+    print(" {:>6.2f}\n", group.shares.value);
   }
+  if (n_shown < n_groups) print("and {} more: --tables\n", n_groups - n_shown);
+}
+
+void print_differences(const JudgedLog& log, const GroupScores& all) {
+  if (log.names.size() > 1) print("\n");
+  for (std::size_t i = 1; i < log.names.size(); ++i)
+    print("{} - {}: {}, better for {} of {} people\n", log.names[i], log.names[0],
+          text_of(all.models[i].difference), all.models[i].n_people_better, all.n_people);
 }
 
 std::string text_of(double value, const std::optional<Interval>& interval) {
@@ -224,16 +271,27 @@ void print_judged(const JudgedLog& log, bool tables) {
   const std::vector<JudgedTrial>& trials = log.judgments.trials;
   print("{}: {} judged, {} draws of each answer (--seed {})\n", counted(log.n_sessions, "session"),
         counted(std::ssize(trials), "trial"), log.repeats, log.seed);
-  print_left_out(log);
-  if (trials.empty()) return print("no trial was judged\n");
+  const int n_left_out = print_left_out(log.judgments);
+  if (trials.empty()) {
+    print("no trial was judged\n");
+    if (tables) print_names_of_left_out(log.judgments);
+    return;
+  }
   const std::size_t n = log.names.size();
   const auto groups = scores_of(trials, n, ScoreGroups::references);
-  print_models(log, scores_of(trials, n, ScoreGroups::all).front());
-  print_groups(log, groups);
-  if (tables) print_tables(log, groups);
+  const GroupScores all = scores_of(trials, n, ScoreGroups::all).front();
+  constexpr int screen_lines = 24, other_lines = 10;  // a chart's name follows
+  const int room = screen_lines - other_lines - n_left_out - static_cast<int>(n);
+  print_models(log, all);
+  print_groups(log, groups, tables ? std::numeric_limits<int>::max() : room);
+  if (tables) {
+    print_differences(log, all);
+    print_tables(log, groups);
+    print_names_of_left_out(log.judgments);
+  }
   print(
       "\nlog score: mean log of the probability that a model gives to the logged answer;\n"
-      "0 is best. own answers: what it would score had it answered itself.\n"
+      "0 is best. own, and agreement after /: had the model answered itself.\n"
       "95 % intervals over people. {:.0f} times real time{}\n",
       times_real_time(log), tables ? "" : "; d', answers: --tables");
 }
@@ -247,19 +305,17 @@ std::string as_json(const JudgedLog& log) {
   for (const GroupScores& group : scores_of(judgments.trials, n, ScoreGroups::levels))
     if (group.level_g) levels.push_back(object_of(group, log.names));
   for (const JudgedTrial& trial : judgments.trials) trials.push_back(object_of(trial, log.names));
-  ordered_json unanswered;
-  for (std::size_t i = 0; i < n; ++i) unanswered[log.names[i]] = judgments.n_unanswered[i];
+  ordered_json left_out = ordered_json::array();
+  for (const LeftOutTrial& trial : judgments.left_out)
+    left_out.push_back(
+        {{"session", trial.session_id}, {"trial_number", trial.trial_number}, {"why", trial.why}});
   ordered_json all = nullptr;
   if (!judgments.trials.empty())
     all = object_of(scores_of(judgments.trials, n, ScoreGroups::all).front(), log.names);
   return ordered_json{{"repeats", log.repeats},
                       {"seed", log.seed},
                       {"n_sessions", log.n_sessions},
-                      {"left_out",
-                       {{"without_frames", judgments.n_without_frames},
-                        {"untouched", judgments.n_untouched},
-                        {"numbers", judgments.n_numbers},
-                        {"unanswered", unanswered}}},
+                      {"left_out", left_out},
                       {"times_real_time", times_real_time(log)},
                       {"all", all},
                       {"groups", groups},
