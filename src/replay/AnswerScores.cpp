@@ -132,20 +132,45 @@ GroupKey key_of(const JudgedTrial& trial, ScoreGroups groups) {
           groups == ScoreGroups::levels ? trial.level_g : std::nullopt};
 }
 
-// Of a trial's answer, from those to the other trials of its reference.
+// The logged answers to a trial and to the other trials of its reference.
 class AnswerShares {
  public:
   explicit AnswerShares(const std::vector<JudgedTrial>& trials) {
-    for (const JudgedTrial& trial : trials)
-      by_group_[key_of(trial, ScoreGroups::references)].add(trial.answer, {});
+    for (const JudgedTrial& trial : trials) {
+      const GroupKey key = key_of(trial, ScoreGroups::references);
+      by_group_[key].add(trial.answer, {});
+      by_person_[{trial.person, key}].add(trial.answer, {});
+    }
   }
   double log_score(const JudgedTrial& trial) const {
     const AnswerDraws& all = by_group_.at(key_of(trial, ScoreGroups::references));
     return std::log((all.n_of(trial.answer) - 0.5) / (all.n - 1 + 0.5 * trial.n_answers));
   }
+  std::optional<MeanOverPeople> from_frames(const Trials& trials, std::size_t model) const {
+    Trials comparable;
+    for (const JudgedTrial* trial : trials)
+      if (of_person(*trial).n > 1) comparable.push_back(trial);
+    if (comparable.empty()) return std::nullopt;
+    return mean_over_people(comparable, [&](const JudgedTrial& trial) {
+      return heft::log_score(trial, model) - score_of_others(trial, model);
+    });
+  }
 
  private:
+  const AnswerDraws& of_person(const JudgedTrial& trial) const {
+    return by_person_.at({trial.person, key_of(trial, ScoreGroups::references)});
+  }
+  // Of the answers to the person's other trials, had they been given to this one.
+  double score_of_others(const JudgedTrial& trial, std::size_t model) const {
+    const AnswerDraws& answers = of_person(trial);
+    double sum = -heft::log_score(trial, model);
+    for (const auto& [answer, n] : answers.n_by_answer)
+      sum += n * std::log(probability_of(trial.models[model], answer, trial.n_answers));
+    return sum / (answers.n - 1);
+  }
+
   std::map<GroupKey, AnswerDraws> by_group_;
+  std::map<std::pair<std::string, GroupKey>, AnswerDraws> by_person_;
 };
 
 // The level's own trials, and those of its reference without a difference.
@@ -221,8 +246,10 @@ std::vector<GroupScores> scores_of(const std::vector<JudgedTrial>& trials, std::
     group.person = detection_of(compared, [](const JudgedTrial& trial) {
       return DifferentAnswers{trial.answer == "none" ? 0 : 1, 1};
     });
-    for (std::size_t model = 0; model < n_models; ++model)
+    for (std::size_t model = 0; model < n_models; ++model) {
       group.models.push_back(scores_of(of_key, compared, model));
+      group.models.back().from_frames = shares.from_frames(of_key, model);
+    }
     all.push_back(std::move(group));
   }
   return all;

@@ -78,6 +78,10 @@ struct ModelScores {
   /// Log score minus the first model's, paired by person; for that one 0.
   MeanOverPeople difference;
   int n_people_better = 0;  ///< than with the first model
+  /// Log score minus that of the answers to the person's other trials of the same task, condition
+  /// and reference, had they been given to this one. 0: the model predicts no trial better than
+  /// another, so it is at chance. None: no person has two such trials.
+  std::optional<MeanOverPeople> from_frames;
   std::optional<DetectionOverPeople> detection;
   Confusion answers, labels;
 };

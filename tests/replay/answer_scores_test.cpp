@@ -98,6 +98,31 @@ TEST(AnswerScores, ComparesModelsByPerson) {
                           Pair(Pair("none", "comparison"), 1), Pair(Pair("none", "none"), 1)));
 }
 
+TEST(AnswerScores, FromFramesIsZeroForAModelThatGivesEachTrialTheSame) {
+  const Answers same{{"none", 7}, {"comparison", 3}};
+  std::vector<JudgedTrial> trials;
+  for (const char* person : {"1", "2"})
+    for (const char* answer : {"none", "comparison", "reference"})
+      trials.push_back(comparison(person, 50, answer, {same}));
+  const GroupScores all = scores_of(trials, 1, ScoreGroups::all).front();
+  EXPECT_NEAR(all.models[0].from_frames->value, 0, 1e-12);
+  EXPECT_LT(all.models[0].log_score.value, all.chance.value) << "for it is sure, without reason";
+}
+
+TEST(AnswerScores, FromFramesComparesTheAnswersOfOnePersonAndReference) {
+  const Answers none{{"none", 10}}, any{{"none", 5}, {"comparison", 5}};
+  std::vector<JudgedTrial> trials{
+      comparison("1", 50, "none", {none}), comparison("1", 90, "comparison", {any}),
+      comparison("1", 90, "comparison", {any}), comparison("2", 50, "comparison", {none})};
+  trials.push_back(comparison("1", 50, "reference", {none}));
+  trials.back().reference_g = 15;
+  const GroupScores all = scores_of(trials, 1, ScoreGroups::all).front();
+  EXPECT_NEAR(all.models[0].from_frames->value, (std::log(10.5) - std::log(0.5)) / 3, 1e-12);
+  EXPECT_FALSE(all.models[0].from_frames->interval) << "the other person has one trial";
+  trials.erase(trials.begin(), trials.begin() + 3);
+  EXPECT_FALSE(scores_of(trials, 1, ScoreGroups::all).front().models[0].from_frames);
+}
+
 // The other trials' answers, with half a count each: of 3 "none" beside this one's, 1 "comparison".
 TEST(AnswerScores, SharesLeaveTheTrialOut) {
   const Answers any{{"none", 2}};

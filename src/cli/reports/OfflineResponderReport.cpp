@@ -123,6 +123,15 @@ void print_groups(const JudgedLog& log, const std::vector<GroupScores>& groups, 
   if (n_shown < n_groups) print("and {} more: --tables\n", n_groups - n_shown);
 }
 
+void print_from_frames(const JudgedLog& log, const GroupScores& all) {
+  print(
+      "\nfrom frames: log score minus that of the answers to the person's other trials;\n"
+      "0: the model predicts no trial better than another\n");
+  for (std::size_t i = 0; i < log.names.size(); ++i)
+    if (const auto& mean = all.models[i].from_frames)
+      print("  {:<{}} {}\n", short_name(log.names[i]), name_width, text_of(*mean));
+}
+
 void print_differences(const JudgedLog& log, const GroupScores& all) {
   if (log.names.size() > 1) print("\n");
   for (std::size_t i = 1; i < log.names.size(); ++i)
@@ -226,16 +235,18 @@ ordered_json object_of(const GroupScores& group, const std::vector<std::string>&
   ordered_json models = ordered_json::array();
   for (std::size_t i = 0; i < names.size(); ++i) {
     const ModelScores& model = group.models[i];
-    models.push_back({{"responder", names[i]},
-                      {"log_score", object_of(model.log_score)},
-                      {"own_log_score", object_of(model.own_log_score)},
-                      {"agreement", object_of(model.agreement)},
-                      {"own_agreement", object_of(model.own_agreement)},
-                      {"difference", object_of(model.difference)},
-                      {"n_people_better", model.n_people_better},
-                      {"detection", object_of(model.detection)},
-                      {"answers", object_of(model.answers)},
-                      {"labels", object_of(model.labels)}});
+    models.push_back(
+        {{"responder", names[i]},
+         {"log_score", object_of(model.log_score)},
+         {"own_log_score", object_of(model.own_log_score)},
+         {"agreement", object_of(model.agreement)},
+         {"own_agreement", object_of(model.own_agreement)},
+         {"difference", object_of(model.difference)},
+         {"n_people_better", model.n_people_better},
+         {"from_frames", model.from_frames ? object_of(*model.from_frames) : ordered_json(nullptr)},
+         {"detection", object_of(model.detection)},
+         {"answers", object_of(model.answers)},
+         {"labels", object_of(model.labels)}});
   }
   return {{"task", group.task},
           {"condition", group.condition},
@@ -285,6 +296,7 @@ void print_judged(const JudgedLog& log, bool tables) {
   print_models(log, all);
   print_groups(log, groups, tables ? std::numeric_limits<int>::max() : room);
   if (tables) {
+    print_from_frames(log, all);
     print_differences(log, all);
     print_tables(log, groups);
     print_names_of_left_out(log.judgments);
