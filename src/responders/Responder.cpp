@@ -12,6 +12,8 @@ namespace {
 constexpr std::array table{
     ResponderEntry{"simulated", "a hand that pushes cubes, an eye for the clone, a decision",
                    ResponderFile::parameters, make_simulated, simulated_parts},
+    ResponderEntry{"population", "as simulated; its file also gives spreads and correlations",
+                   ResponderFile::parameters, make_simulated, simulated_parts},
     ResponderEntry{"always_yes",
                    "finds a difference in every trial without touching a cube",
                    ResponderFile::none,

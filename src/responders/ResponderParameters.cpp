@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
-
-#include "base/Random.h"
 
 namespace heft {
 
@@ -118,22 +115,16 @@ std::string set_number(const Parameter& parameter, const ParameterRow& row, P& p
   return {};
 }
 
-std::string set(const Parameter& parameter, std::span<const ParameterPart> parts, P& parameters) {
+std::string set(Parameter parameter, std::span<const ParameterPart> parts, P& parameters) {
+  constexpr std::string_view median = ".median";
+  if (parameter.name.ends_with(median))
+    parameter.name.resize(parameter.name.size() - median.size());
   if (parameter.name == "cue" && has(parts, perception)) return set_cue(parameter, parameters);
   const auto row = std::ranges::find(rows, parameter.name, &ParameterRow::name);
   if (row == rows.end() || !has(parts, row->part)) return unknown(parameter.name, parts);
   return set_number(parameter, *row, parameters);
 }
 
-// One stream per parameter: a new row of the table changes no other value.
-void vary(std::uint64_t seed, P& parameters) {
-  for (const ParameterRow& row : rows) {
-    RandomStream stream(seed, fmt::format("participant {}", row.name));
-    const double spread = row.spread * parameters.participant_spread;
-    double& value = parameters.*row.member;
-    value = std::clamp(value * std::exp(spread * stream.normal()), row.least, row.most);
-  }
-}
 }  // namespace
 
 std::span<const ParameterRow> parameter_rows() {
@@ -149,13 +140,16 @@ ResponderParameters default_parameters() {
 ResponderParameters participant_parameters(const ResponderOptions& options,
                                            std::span<const ParameterPart> parts) {
   ResponderParameters parameters = default_parameters();
+  Variation variation;
   std::vector<Mistake> mistakes;
   for (const Parameter& parameter : options.parameters) {
-    const std::string wrong = set(parameter, parts, parameters);
+    const std::string wrong = Variation::takes(parameter.name) ? variation.set(parameter, parts)
+                                                               : set(parameter, parts, parameters);
     if (!wrong.empty()) mistakes.push_back({parameter.place, wrong});
   }
+  if (const auto impossible = variation.factorize()) mistakes.push_back(*impossible);
   if (!mistakes.empty()) throw InvalidFile(std::move(mistakes));
-  vary(options.seed, parameters);
+  variation.vary(options.seed, parameters);
   return parameters;
 }
 

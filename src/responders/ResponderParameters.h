@@ -5,10 +5,13 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "base/Error.h"
 #include "base/Names.h"
 #include "responders/Responder.h"
 
@@ -69,8 +72,34 @@ std::span<const ParameterRow> parameter_rows();
 /// Defaults of all parts: an average participant.
 ResponderParameters default_parameters();
 
-/// Defaults, overridden by the options' parameters, then varied between participants: each value
-/// times exp(spread * normal), drawn from the seed once per parameter and clamped to its range.
+/// How parameters differ between participants. All are at least 0 and log-normal: a participant's
+/// value is the median times exp(spread * z), with z standard normal over participants.
+class Variation {
+ public:
+  Variation();  ///< the table's spreads, no correlations
+
+  /// Takes "NAME.spread" (SD of the logarithm, 0 to 3) or "correlation.NAME.NAME" (of the
+  /// logarithms, between -1 and 1).
+  /// @return the mistake, or an empty string
+  std::string set(const Parameter& parameter, std::span<const ParameterPart> parts);
+  static bool takes(std::string_view name);
+
+  /// @return the mistake if no distribution has all these correlations
+  std::optional<Mistake> factorize();
+
+  /// One stream per parameter, keyed by the seed: a new row of the table changes no other value.
+  /// Correlated draws are the Cholesky factor times the independent ones. Values are clamped to
+  /// their ranges.
+  void vary(std::uint64_t seed, ResponderParameters& parameters) const;
+
+ private:
+  std::vector<double> spread_;               ///< by row
+  std::vector<std::vector<double>> matrix_;  ///< correlations; after factorize() their factor
+  SourcePlace last_correlation_;
+};
+
+/// Defaults, overridden by the options' parameters, then varied between participants.
+/// A parameter is given as NAME = MEDIAN or NAME = {median = , spread = }.
 /// @param parts whose parameters may be given
 /// @throws InvalidFile naming each unknown or invalid parameter at its place
 ResponderParameters participant_parameters(const ResponderOptions& options,

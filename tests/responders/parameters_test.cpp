@@ -76,6 +76,65 @@ TEST(Parameters, ParticipantsDifferByTheSpreadAndNotAtAllWithoutIt) {
             default_parameters().criterion_mm);
 }
 
+// Logarithms of two parameters of 4000 participants: criterion_mm, then judgment_noise_mm.
+struct DrawnPairs {
+  explicit DrawnPairs(const std::vector<Parameter>& file) {
+    for (std::uint64_t seed = 0; seed < n; ++seed) {
+      const auto drawn = participant_parameters({seed, file, ""}, simulated_parts);
+      const double a = std::log(drawn.criterion_mm), b = std::log(drawn.judgment_noise_mm);
+      sum_a += a, sum_b += b, aa += a * a, bb += b * b, ab += a * b;
+    }
+  }
+  double mean_a() const { return sum_a / n; }
+  double sd_a() const { return std::sqrt(aa / n - mean_a() * mean_a()); }
+  double sd_b() const { return std::sqrt(bb / n - sum_b / n * sum_b / n); }
+  double correlation() const { return (ab / n - mean_a() * sum_b / n) / (sd_a() * sd_b()); }
+
+  static constexpr int n = 4000;
+  double sum_a = 0, sum_b = 0, aa = 0, bb = 0, ab = 0;
+};
+
+TEST(Populations, ParticipantsHaveTheFilesMediansSpreadsAndCorrelation) {
+  const DrawnPairs drawn({{"criterion_mm.median", 4.0, {}},
+                          {"criterion_mm.spread", 0.25, {}},
+                          {"judgment_noise_mm.spread", 0.5, {}},
+                          {"correlation.criterion_mm.judgment_noise_mm", -0.6, {}}});
+  const double n = DrawnPairs::n;  // bounds: four standard errors
+  EXPECT_NEAR(drawn.mean_a(), std::log(4.0), 4 * 0.25 / std::sqrt(n));
+  EXPECT_NEAR(drawn.sd_a(), 0.25, 4 * 0.25 / std::sqrt(2 * n));
+  EXPECT_NEAR(drawn.sd_b(), 0.5, 4 * 0.5 / std::sqrt(2 * n));
+  EXPECT_NEAR(drawn.correlation(), -0.6, 4 * (1 - 0.36) / std::sqrt(n));
+}
+
+TEST(Populations, ACorrelationChangesNoOtherParameter) {
+  const std::vector<Parameter> file{{"correlation.criterion_mm.judgment_noise_mm", 0.5, {}}};
+  const auto with = drawn_values({7, file, ""}, simulated_parts);
+  const auto without = drawn_values({7, {}, ""}, simulated_parts);
+  for (const auto& [name, value] : without) {
+    if (name == "criterion_mm" || name == "judgment_noise_mm") continue;
+    EXPECT_EQ(with.at(name), value) << name;
+  }
+  EXPECT_EQ(drawn_values({7, file, ""}, simulated_parts), with);
+}
+
+TEST(Populations, MistakesAreReportedAtTheirPlaces) {
+  const std::string text =
+      refusal("population", {{"hold_s.spread", 4.0, {"p.toml", 1, 1}},
+                             {"hold.spread", 0.1, {"p.toml", 2, 1}},
+                             {"correlation.hold_s.pause_s", 1.0, {"p.toml", 3, 9}},
+                             {"correlation.hold_s.hold_s", 0.5, {"p.toml", 4, 9}},
+                             {"hold_s.mean", 1.0, {"p.toml", 5, 9}}});
+  EXPECT_THAT(text, HasSubstr("p.toml:1:1: hold_s.spread is 4, expected 0 to 3"));
+  EXPECT_THAT(text, HasSubstr("p.toml:2:1: unknown parameter \"hold\", did you mean"));
+  EXPECT_THAT(text, HasSubstr("p.toml:3:9: correlation.hold_s.pause_s is 1, expected a number"));
+  EXPECT_THAT(text, HasSubstr("p.toml:4:9: correlation.hold_s.hold_s is a correlation of a"));
+  EXPECT_THAT(text, HasSubstr("p.toml:5:9: unknown parameter \"hold_s.mean\""));
+  EXPECT_THAT(refusal("population", {{"correlation.hold_s.pause_s", 0.9, {"p.toml", 1, 1}},
+                                     {"correlation.hold_s.think_s", 0.9, {"p.toml", 2, 1}},
+                                     {"correlation.pause_s.think_s", -0.9, {"p.toml", 3, 1}}}),
+              HasSubstr("p.toml:3:1: no distribution has all these correlations together"));
+}
+
 // Everything a participant does in a few trials.
 std::string trace(const std::vector<Parameter>& parameters) {
   std::string text;

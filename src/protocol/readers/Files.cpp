@@ -216,18 +216,29 @@ std::string described(const SyntheticSettings& settings) {
   return text;
 }
 
-std::vector<Parameter> parse_parameters(const std::string& text, const std::string& file) {
-  Mistakes mistakes(file);
-  std::vector<Parameter> parameters;
-  for (const TomlEntry& entry : parse_toml(text, file)) {
-    if (auto value = value_of(entry.node))
+namespace {
+// Appends a table's values; those of a table inside it as "table.key".
+void flatten(const TomlTable& table, const std::string& prefix, const std::string& file,
+             std::vector<Parameter>& parameters, Mistakes& mistakes) {
+  for (const TomlEntry& entry : table) {
+    const std::string name = prefix + entry.key;
+    if (const auto* inner = std::get_if<TomlTable>(&entry.node.value); inner && !inner->empty())
+      flatten(*inner, name + ".", file, parameters, mistakes);
+    else if (auto value = value_of(entry.node))
       parameters.push_back(
-          {entry.key, std::move(*value), {file, entry.node.place.line, entry.node.place.column}});
+          {name, std::move(*value), {file, entry.node.place.line, entry.node.place.column}});
     else
       mistakes.add(entry.node.place,
                    fmt::format("{} is {}, expected a finite number, a text, true or false",
-                               printable(entry.key), shown(entry.node)));
+                               printable(name), shown(entry.node)));
   }
+}
+}  // namespace
+
+std::vector<Parameter> parse_parameters(const std::string& text, const std::string& file) {
+  Mistakes mistakes(file);
+  std::vector<Parameter> parameters;
+  flatten(parse_toml(text, file), "", file, parameters, mistakes);
   mistakes.throw_if_any();
   std::ranges::sort(parameters, {}, [](const Parameter& parameter) {
     return std::tuple(parameter.place.line, parameter.place.column);
