@@ -48,8 +48,9 @@ struct PageId {
 
 struct ScreenState {
   Screen screen = Screen::welcome;
-  Task task = {};                                       ///< trial and instructions
-  int n_slots = 0;                                      ///< trial only
+  Task task = {};            ///< trial and instructions
+  std::string wording = {};  ///< instructions: TaskDeclaration::wordings; empty: the usual one
+  int n_slots = 0;           ///< trial only
   int trial_number = 0, attempt = 0, n_reshuffles = 0;  ///< trial only
   /// Between two trials, how far the last trial's scene has faded out, 0...1.
   std::optional<double> faded = {};

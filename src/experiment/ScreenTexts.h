@@ -91,6 +91,11 @@ inline std::string text_page(Screen screen, const Task& task) {
   return by_task ? name + '_' + task : name;
 }
 
+/// Key of a wording's instructions on that page; the usual ones are "text".
+inline std::string instructions_key(std::string_view wording) {
+  return wording.empty() ? "text" : "text_" + std::string(wording);
+}
+
 inline std::string text_page(const ScreenState& state) {
   return state.screen == Screen::questionnaire ? questionnaire_page(state.form)
                                                : text_page(state.screen, state.task);

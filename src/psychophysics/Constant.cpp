@@ -30,7 +30,7 @@ ConfigMistakes ConstantConfig::check() const {
   return mistakes;
 }
 
-ConfigMistakes ConstantConfig::check_beside(double reference) const {
+ConfigMistakes ConstantConfig::check_beside(double reference, bool) const {
   ConfigMistakes mistakes;
   for (std::size_t i = 0; i < levels.size(); ++i)
     if (levels[i] <= -reference)

@@ -34,7 +34,7 @@ struct ConstantConfig {
   ConfigMistakes check() const;
   /// Mistakes if levels are differences from a reference in grams: the comparison's mass must be
   /// positive.
-  ConfigMistakes check_beside(double reference) const;
+  ConfigMistakes check_beside(double reference, bool either_sign = false) const;
 };
 template <typename Config, typename Visit>
 requires ConfigOf<Config, ConstantConfig>

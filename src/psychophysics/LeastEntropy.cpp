@@ -82,19 +82,20 @@ ConfigMistakes LeastEntropyConfig::mistakes() const {
 }
 
 // A positive answer to a lighter comparison has the opposite meaning, unless the choice counts.
-ConfigMistakes LeastEntropyConfig::check_beside(double reference) const {
+ConfigMistakes LeastEntropyConfig::check_beside(double reference, bool either_sign) const {
   ConfigMistakes mistakes;
   if (!is_indecision() && scale != LevelScale::linear)
     mistakes.push_back(
         {{"scale"}, fmt::format("scale is \"{}\"", name_of(scale)), "\"linear\": levels are in g"});
   const auto check_level = [&](std::string_view key, double level,
                                std::optional<std::size_t> index) {
-    if (is_indecision() ? level > -reference : level >= 0) return;
+    const bool may_be_lighter = is_indecision() || either_sign;
+    if (may_be_lighter ? level > -reference : level >= 0) return;
     mistakes.push_back(
         {{key},
          fmt::format("{} has {}", key, level),
-         is_indecision() ? fmt::format("above {}, where the comparison would weigh 0 g", -reference)
-                         : "0 or more: a lighter comparison needs function = \"indecision\"",
+         may_be_lighter ? fmt::format("above {}, where the comparison would weigh 0 g", -reference)
+                        : "0 or more: a lighter comparison needs function = \"indecision\"",
          index});
   };
   for (std::size_t i = 0; i < levels.values.size(); ++i)

@@ -38,7 +38,7 @@ struct LeastEntropyConfig {
   /// Without the levels beyond floor and ceiling.
   GridSpace space() const;
 
-  ConfigMistakes check_beside(double reference) const;
+  ConfigMistakes check_beside(double reference, bool either_sign = false) const;
 
  protected:
   ConfigMistakes mistakes() const;  ///< of the keys that both kinds have, in range

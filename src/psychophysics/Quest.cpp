@@ -106,7 +106,8 @@ ConfigMistakes QuestConfig::check() const {
   return mistakes;
 }
 
-ConfigMistakes QuestConfig::check_beside(double reference) const {
+ConfigMistakes QuestConfig::check_beside(double reference, bool either_sign) const {
+  if (either_sign && floor && *floor > -reference) return {};
   if (floor && *floor >= 0) return {};
   return {{{"floor"},
            floor ? fmt::format("floor is {}", *floor) : std::string(R"(lacks "floor")"),

@@ -45,7 +45,7 @@ struct QuestConfig {
   /// The grid has 2 of these plus 1 values.
   int half_size() const;
   ConfigMistakes check() const;
-  ConfigMistakes check_beside(double reference) const;
+  ConfigMistakes check_beside(double reference, bool either_sign = false) const;
 };
 template <typename Config, typename Visit>
 requires ConfigOf<Config, QuestConfig>

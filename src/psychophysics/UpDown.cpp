@@ -114,7 +114,17 @@ ConfigMistakes UpDownConfig::check() const {
   return mistakes;
 }
 
-ConfigMistakes UpDownConfig::check_beside(double reference) const {
+ConfigMistakes UpDownConfig::check_beside(double reference, bool either_sign) const {
+  if (either_sign && floor && *floor < 0 && *floor > -reference) return {};
+  if (either_sign && !(floor && *floor >= 0) && (floor || step_scale == StepScale::linear))
+    return {{{"floor", "step_scale"},
+             floor
+                 ? fmt::format("floor is {}: with a reference of {} g the comparison could "
+                               "weigh 0 g or less",
+                               *floor, reference)
+                 : std::string(R"(lacks "floor": its linear steps could make the comparison weigh )"
+                               "0 g or less"),
+             fmt::format("a floor above {}", -reference)}};
   if (floor && *floor < 0)
     return {{{"floor"},
              fmt::format(

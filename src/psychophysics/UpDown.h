@@ -97,8 +97,9 @@ struct UpDownConfig {
 
   ConfigMistakes check() const;
   /// Mistakes if levels are differences from a reference in grams. For a comparison lighter than
-  /// the reference a perceived difference has the opposite meaning, so levels must not be negative.
-  ConfigMistakes check_beside(double reference) const;
+  /// the reference a perceived difference has the opposite meaning, so levels must not be negative,
+  /// except with `either_sign`, where a positive response says that the comparison was chosen.
+  ConfigMistakes check_beside(double reference, bool either_sign = false) const;
 };
 template <typename Config, typename Visit>
 requires ConfigOf<Config, UpDownConfig>

@@ -66,7 +66,7 @@ std::optional<DetectionOverPeople> detection_of(
   std::map<std::string, Answered> people;
   Answered all;
   for (const JudgedTrial* trial : trials) {
-    if (!task_named(trial->task).detects) return std::nullopt;
+    if (!trial->detects) return std::nullopt;
     people[trial->person].add(trial->has_difference, answers_to(*trial));
   }
   for (const auto& [person, answered] : people) all.add(answered);

@@ -37,6 +37,7 @@ struct JudgedTrial {
   std::optional<double> reference_g, level_g;
   bool has_difference = true;  ///< between the cubes' masses
   int n_answers = 0;           ///< that the trial offers
+  bool detects = false;        ///< they state if the cubes differ
   std::string answer;
   std::vector<std::string> labels;
   std::vector<AnswerDraws> models;

@@ -179,6 +179,7 @@ class SessionJudge {
             plan.level_g,
             std::ranges::min(plan.masses_g) < std::ranges::max(plan.masses_g),
             *logged.n_answers(),
+            logged.detects(),
             word_of(logged),
             logged.labels(),
             {}};

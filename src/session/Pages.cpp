@@ -50,7 +50,10 @@ void Pages::show_form(Screen screen) {
 void Pages::instructions(const std::string& block, const Task& task) {
   const bool left_before = gone_.pages.contains(text_page(Screen::instructions, task));
   if (instructed_.contains(block) || (left_before && journal_.engine().has_begun(block))) return;
-  const TouchKind end = show(ScreenState{.screen = Screen::instructions, .task = task});
+  const TouchKind end =
+      show(ScreenState{.screen = Screen::instructions,
+                       .task = task,
+                       .wording = std::string(task_block(protocol_, block).wording())});
   if (end == TouchKind::next) instructed_.insert(block);
 }
 

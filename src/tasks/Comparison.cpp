@@ -42,29 +42,30 @@ std::vector<double> catch_references(const Comparison::Block& block, std::uint64
 }
 
 // Number of trials with one observer, who answers yes if the difference plus noise in proportion to
-// the threshold exceeds the threshold.
-int simulated_trials(Procedure procedure, double threshold_g, std::uint64_t observer) {
-  constexpr double noise_per_threshold = 0.4;
+// the threshold exceeds the threshold; in a forced choice, 0: at the threshold 75 % are correct.
+int simulated_trials(Procedure procedure, double threshold_g, bool is_forced,
+                     std::uint64_t observer) {
+  const double noise_per_threshold = is_forced ? 1 / 0.6745 : 0.4;
   constexpr int enough_trials = 1000;  // steps too small for the start may never converge
   RandomStream stream(0, "expected length", observer);
   const RandomStream levels = level_stream(observer, procedure.name());
   while (!procedure.finished() && procedure.n_trials() < enough_trials) {
     const double level_g = procedure.next_level(levels);
     const double seen_g = level_g + noise_per_threshold * threshold_g * stream.normal();
-    procedure.respond({seen_g > threshold_g}, level_g);
+    procedure.respond({seen_g > (is_forced ? 0 : threshold_g)}, level_g);
   }
   return procedure.n_trials();
 }
 
-double mean_trials(const Procedure& procedure, double largest_threshold_g) {
+double mean_trials(const Procedure& procedure, double largest_threshold_g, bool is_forced) {
   if (const auto planned = procedure.planned_trials()) return *planned;
   if (const auto most = procedure.most_trials()) return *most;
   constexpr int n_observers = 200;
   double total = 0;
   for (int i = 0; i < n_observers; ++i) {
     const double fraction = 0.25 + 0.75 * (i + 0.5) / n_observers;
-    total +=
-        simulated_trials(procedure, fraction * largest_threshold_g, static_cast<std::uint64_t>(i));
+    total += simulated_trials(procedure, fraction * largest_threshold_g, is_forced,
+                              static_cast<std::uint64_t>(i));
   }
   return total / n_observers;
 }
@@ -89,6 +90,10 @@ std::string catch_text(const Comparison::Block& block) {
 }  // namespace
 
 ConfigMistakes Comparison::Block::check() const {
+  if (is_forced() && positive_answer != PositiveAnswer::any_choice)
+    return {{{"positive_answer"},
+             R"(positive_answer together with answers = "heavier")",
+             "without it: in a forced choice choosing the comparison is the positive answer"}};
   if (catch_trials.empty() || catch_fraction == 0) return {};
   return {{{"catch_fraction"},
            "catch_fraction together with catch_trials",
@@ -103,7 +108,9 @@ std::vector<std::pair<std::string, std::string>> Comparison::Block::choices() co
       {"interleaving", order},
       {"catch trials", catch_text(*this)},
       {"sides of the reference", std::string(name_of(sides))},
-      {"moves a staircase down", std::string(name_of(positive_answer))}};
+      {"moves a staircase down",
+       is_forced() ? "choice of the comparison" : std::string(name_of(positive_answer))}};
+  if (is_forced()) choices.emplace_back("answers", "forced choice, without \"no difference\"");
   for (const ReferenceStaircase& reference : staircases) {
     const std::string its_name = "staircase " + reference.staircase.name();
     if (std::string course = ProcedureKinds::course(reference.staircase, "g"); !course.empty())
@@ -116,7 +123,8 @@ std::vector<std::pair<std::string, std::string>> Comparison::Block::choices() co
 double Comparison::Block::expected_staircase_trials() const {
   double trials = 0;
   for (const ReferenceStaircase& reference : staircases)
-    trials += mean_trials(reference.staircase, largest_start_g(*this, reference.reference_g));
+    trials += mean_trials(reference.staircase, largest_start_g(*this, reference.reference_g),
+                          is_forced());
   return trials;
 }
 
@@ -205,8 +213,8 @@ void Comparison::Run::complete(const TrialRow& row, Changes& changes) {
 
 void Comparison::Run::respond(std::size_t index, const TrialRow& row, Changes& changes) {
   Procedure& staircase = staircases_[index];
-  const Update update =
-      staircase.respond(response_in(row, block_.positive_answer), *row.plan.level_g);
+  const Update update = staircase.respond(response_in(row, block_.positive_answer, block_.answers),
+                                          *row.plan.level_g);
   if (const auto& reversal = update.reversal)
     changes.reversals = {{row.attempt_index, staircase.name(), reversal->number, reversal->level,
                           reversal->step_before, reversal->step_after}};
@@ -216,11 +224,14 @@ void Comparison::Run::respond(std::size_t index, const TrialRow& row, Changes& c
   previous_ = index;
 }
 
-Response Comparison::response_in(const TrialRow& row, PositiveAnswer positive_answer) {
+Response Comparison::response_in(const TrialRow& row, PositiveAnswer positive_answer,
+                                 ComparisonAnswers answers) {
   if (row.outcome != "difference") return response_of(Choice::none);
   Response response = response_of(row.chosen_slot == row.plan.reference_slot ? Choice::reference
                                                                              : Choice::comparison);
-  if (positive_answer == PositiveAnswer::correct_choice)
+  if (answers == ComparisonAnswers::heavier)
+    response.positive = response.choice == Choice::comparison;
+  else if (positive_answer == PositiveAnswer::correct_choice)
     response.positive = row.choice_correct.value_or(false);
   return response;
 }
@@ -229,6 +240,11 @@ std::optional<std::string> Comparison::Run::survivor() const {
   if (staircases_.size() < 2 || std::ranges::count_if(staircases_, is_unfinished) != 1)
     return std::nullopt;
   return std::ranges::find_if(staircases_, is_unfinished)->name();
+}
+
+std::optional<std::string> Comparison::Trial::refusal(const Action& action) const {
+  if (is_forced() && !action.slot) return "a forced choice: one of the two cubes is the answer";
+  return std::nullopt;
 }
 
 void Comparison::Trial::take(const Action& action) {
@@ -241,16 +257,19 @@ std::string Comparison::Trial::answer() const {
   return result_.chosen_slot == plan_.reference_slot ? "reference" : "comparison";
 }
 
-// A lapse: one of the n cubes or no difference, equally likely.
-Answer Comparison::simulated(const Offer&, const Percepts& percepts, RandomStream& stream) {
+// A lapse: one of the n cubes or no difference, equally likely. A forced choice has no criterion.
+Answer Comparison::simulated(const Offer& offer, const Percepts& percepts, RandomStream& stream) {
+  if (offer.answers == ComparisonAnswers::heavier)
+    return {{{"select", heaviest_slot(percepts.remembered_mm, {})}}};
   const bool different =
       percepts.lapse ? stream.below(percepts.remembered_mm.size() + 1) > 0 : percepts.differ;
   if (!different) return {{{"no_difference"}}};
   return {{{"select", heaviest_slot(percepts.remembered_mm, {})}}};
 }
 
-Answer Comparison::blind(const Offer&, const WithoutPercepts& known, RandomStream& stream) {
-  if (!known.differ) return {{{"no_difference"}}};
+Answer Comparison::blind(const Offer& offer, const WithoutPercepts& known, RandomStream& stream) {
+  if (!known.differ && offer.answers == ComparisonAnswers::heavier_or_none)
+    return {{{"no_difference"}}};
   const auto n = static_cast<std::uint64_t>(known.n_slots);
   return {{{"select", 1 + static_cast<int>(stream.below(n))}}};
 }

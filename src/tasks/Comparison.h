@@ -1,7 +1,8 @@
 // Comparison task (paper, 4.2): which of two cubes, a reference and a comparison, is heavier, or no
-// difference. Levels come from interleaved staircases. Catch trials have a difference of 0 and
-// update no staircase; a fixed number of them is drawn in shuffled blocks, so that each participant
-// gets the planned number for each reference, spread over the session.
+// difference; in a forced choice (answers = "heavier") there is no such third answer. Levels come
+// from interleaved staircases. Catch trials have a difference of 0 and update no staircase; a fixed
+// number of them is drawn in shuffled blocks, so that each participant gets the planned number for
+// each reference, spread over the session.
 #pragma once
 
 #include <optional>
@@ -16,6 +17,18 @@
 #include "tasks/TaskRun.h"
 
 namespace heft {
+
+/// What a participant may answer: the heavier cube or no difference (the paper), or always a cube.
+///
+/// The response of a forced choice to every procedure is "the comparison was chosen". For a
+/// comparison that is heavier this is a correct choice; for one that is lighter it is an incorrect
+/// one, so that levels of both signs make one psychometric function; at a difference of 0, where
+/// nothing is correct, it is a coin, as the side of the reference is.
+enum class ComparisonAnswers { heavier_or_none, heavier };
+template <>
+struct EnumNames<ComparisonAnswers> {
+  static constexpr std::array<std::string_view, 2> names{"heavier_or_none", "heavier"};
+};
 
 /// Which answers are positive, that is, move the staircase down.
 enum class PositiveAnswer { any_choice, correct_choice };
@@ -45,6 +58,14 @@ struct ReferenceCatchTrials {
   int trials = 0;
 };
 
+/// The procedures of a block, whose checks depend on its answers.
+template <typename Block>
+struct StaircasesOf {
+  Block& block;
+};
+template <typename Block>
+StaircasesOf(Block&) -> StaircasesOf<Block>;
+
 /// The keys of a block's catch trials.
 template <typename Block>
 struct CatchTrials {
@@ -57,6 +78,7 @@ struct Comparison {
   static constexpr std::array actions{ActionSpec{.kind = "select", .slot = true},
                                       ActionSpec{.kind = "no_difference"}};
   static constexpr std::array<std::string_view, 2> outcomes{"difference", "no_difference"};
+  static constexpr std::array<std::string_view, 1> wordings{name_of(ComparisonAnswers::heavier)};
   static constexpr TaskDeclaration task{
       .name = "comparison",
       .about = "Which of two cubes is heavier, or is there no difference",
@@ -64,12 +86,14 @@ struct Comparison {
       .outcomes = outcomes,
       .texts = "question no_difference",
       .trial_s = 10,
-      .detects = true};
+      .detects = true,
+      .wordings = wordings};
 
   struct Block {
     using OfTask = Comparison;
     std::string name;
     std::string condition = spring_technique;  ///< name of the technique
+    ComparisonAnswers answers = ComparisonAnswers::heavier_or_none;
     // Catch trials: either a random fraction of trials, or fixed numbers, one in every
     // `catch_every` trials and none among the first three; the rest after the last staircase.
     double catch_fraction = 0;
@@ -83,10 +107,11 @@ struct Comparison {
     template <typename Visit>
     void visit_keys(Visit&& visit) {
       visit(ConfigKey{"condition", "technique"}, ByTechnique{condition});
+      visit(ConfigKey{"answers", "what may be answered"}, answers);
       visit(ConfigKey{"positive_answer", "answers that move a staircase down"}, positive_answer);
       visit(ConfigKey{"sides", "of the reference"}, sides);
       visit(ConfigKey{"interleave", "order of staircases"}, interleaving);
-      visit(ConfigKey{"staircase", "a procedure and its reference", true}, staircases);
+      visit(ConfigKey{"staircase", "a procedure and its reference", true}, StaircasesOf{*this});
       visit(ConfigKey{"catch_fraction", "random fraction of trials"}, catch_fraction,
             Range{0, 1, false, true});
       visit(ConfigKey{"catch_trials", "fixed numbers of trials"}, CatchTrials{*this});
@@ -99,8 +124,12 @@ struct Comparison {
     double expected_trials() const;
     bool depends_on_answers() const;
     int most_cubes() const { return 2; }
+    bool is_forced() const { return answers == ComparisonAnswers::heavier; }
+    std::string_view wording() const { return is_forced() ? wordings[0] : std::string_view(); }
   };
-  struct Offer {};
+  struct Offer {
+    ComparisonAnswers answers = ComparisonAnswers::heavier_or_none;
+  };
 
   class Run : public TaskRun {
    public:
@@ -124,15 +153,26 @@ struct Comparison {
 
   class Trial : public TaskTrial {
    public:
-    Trial(const Block&, const TrialPlan& plan, std::uint64_t) : TaskTrial(task, plan) {}
+    Trial(const Block& block, const TrialPlan& plan, std::uint64_t)
+        : TaskTrial(task, plan), answers_(block.answers) {}
+    std::optional<std::string> refusal(const Action& action) const override;
     void take(const Action& action) override;
-    void show(ScreenState& screen) const override { screen.offer = Offer{}; }
+    void show(ScreenState& screen) const override { screen.offer = Offer{answers_}; }
     std::string answer() const override;
-    std::optional<int> n_answers() const override { return plan_.n_slots() + 1; }
+    std::optional<int> n_answers() const override {
+      return plan_.n_slots() + (is_forced() ? 0 : 1);
+    }
+    bool detects() const override { return !is_forced(); }
+
+   private:
+    bool is_forced() const { return answers_ == ComparisonAnswers::heavier; }
+
+    ComparisonAnswers answers_;
   };
 
   /// The response that a completed trial gives to its procedure.
-  static Response response_in(const TrialRow& row, PositiveAnswer positive_answer);
+  static Response response_in(const TrialRow& row, PositiveAnswer positive_answer,
+                              ComparisonAnswers answers = ComparisonAnswers::heavier_or_none);
 
   static Answer simulated(const Offer&, const Percepts& percepts, RandomStream& stream);
   static Answer blind(const Offer&, const WithoutPercepts& known, RandomStream& stream);

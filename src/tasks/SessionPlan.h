@@ -75,6 +75,8 @@ class TaskBlock {
   /// The questionnaire whose question its trials ask; none: they ask none.
   std::optional<std::string> questionnaire() const { return of_task_->questionnaire(); }
   bool lacks_question() const { return of_task_->lacks_question(); }
+  /// Which of the task's wordings its instructions have; empty: the usual one.
+  std::string_view wording() const { return of_task_->wording(); }
   /// Names and values of its design choices, for reports.
   std::vector<std::pair<std::string, std::string>> choices() const { return of_task_->choices(); }
   /// Mean over simulated participants if the number depends on the answers.
@@ -111,6 +113,7 @@ class TaskBlock {
     virtual std::unique_ptr<TaskTrial> trial(const TrialPlan& plan, std::uint64_t seed) const = 0;
     virtual std::optional<std::string> questionnaire() const = 0;
     virtual bool lacks_question() const = 0;
+    virtual std::string_view wording() const = 0;
     virtual std::vector<std::pair<std::string, std::string>> choices() const = 0;
     virtual double expected_trials() const = 0;
     virtual bool depends_on_answers() const = 0;
@@ -137,6 +140,10 @@ class TaskBlock {
     bool lacks_question() const override {
       if constexpr (AsksQuestion<Block>) return block.questionnaire() && !block.question;
       return false;
+    }
+    std::string_view wording() const override {
+      if constexpr (requires { block.wording(); }) return block.wording();
+      return {};
     }
     std::vector<std::pair<std::string, std::string>> choices() const override {
       if constexpr (requires { block.choices(); }) return block.choices();

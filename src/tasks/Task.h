@@ -35,6 +35,8 @@ struct TaskDeclaration {
   std::string_view texts = {};  ///< keys of its page of texts, separated by spaces
   double trial_s = 10;          ///< assumed duration of a trial; the paper reports none
   bool detects = false;         ///< whether an answer states if the cubes differ
+  /// Blocks that ask otherwise need other instructions: the key "text_NAME" of that page.
+  std::span<const std::string_view> wordings = {};
 
   /// @return null if the task has no such action
   constexpr const ActionSpec* action(std::string_view kind) const {

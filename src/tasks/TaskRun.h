@@ -79,6 +79,8 @@ class TaskTrial {
   /// How many answers the trial offers, to score models by the probability that they give to the
   /// logged one. None: the answer is a number.
   virtual std::optional<int> n_answers() const { return std::nullopt; }
+  /// Whether its answers state if the cubes differ.
+  virtual bool detects() const { return declaration_.detects; }
 
  protected:
   bool is_heaviest(int slot) const {

@@ -125,6 +125,12 @@ TEST(Config, KeepsAComparisonFromWeighingNothing) {
   config.step_scale = StepScale::db;
   EXPECT_THAT(config.check_beside(15), IsEmpty());
   const ConstantConfig constant{.levels = {-15, -14, 20}};
+  UpDownConfig signed_levels{.start = 5, .step = 2, .floor = -10};
+  EXPECT_THAT(signed_levels.check_beside(15, true), IsEmpty());
+  signed_levels.floor = -15;
+  EXPECT_EQ(signed_levels.check_beside(15, true).size(), 1u);
+  signed_levels.floor.reset();
+  EXPECT_EQ(signed_levels.check_beside(15, true).size(), 1u);
   ASSERT_EQ(constant.check_beside(15).size(), 1u);
   EXPECT_EQ(constant.check_beside(15)[0].index, 0u);
 }

@@ -29,6 +29,7 @@ JudgedTrial comparison(const std::string& person, double level_g, const std::str
   trial.level_g = level_g;
   trial.has_difference = level_g != 0;
   trial.n_answers = 3;
+  trial.detects = true;
   trial.answer = answer;
   for (const Answers& model : models) trial.models.push_back(draws_of(model));
   return trial;

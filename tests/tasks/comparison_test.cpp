@@ -66,6 +66,73 @@ TEST(ComparisonTrial, EndsWithAnyAnswer) {
   EXPECT_FALSE(equal.result().choice_correct) << "neither is heavier";
 }
 
+// "heavier": the comparison was chosen, whatever the sign and at no difference.
+TEST(ComparisonForcedChoice, GivesChoiceOfComparisonToProcedure) {
+  for (const auto& [row, positive] : {std::pair(row_of("difference", 1, true), true),
+                                      {row_of("difference", 1, false), true},
+                                      {row_of("difference", 1, {}), true},
+                                      {row_of("difference", 2, true), false},
+                                      {row_of("difference", 2, {}), false}}) {
+    const Response response =
+        Comparison::response_in(row, PositiveAnswer::any_choice, ComparisonAnswers::heavier);
+    EXPECT_EQ(response.positive, positive);
+    EXPECT_EQ(response.choice, positive ? Choice::comparison : Choice::reference);
+  }
+}
+
+TEST(ComparisonForcedChoice, RefusesNoDifference) {
+  TrialPlan plan;
+  plan.masses_g = {15, 115};
+  plan.reference_slot = 1;
+  Comparison::Block block;
+  EXPECT_FALSE(Comparison::Trial(block, plan, 0).refusal({"no_difference"}));
+  block.answers = ComparisonAnswers::heavier;
+  Comparison::Trial forced(block, plan, 0);
+  EXPECT_TRUE(forced.refusal({"no_difference"}));
+  EXPECT_FALSE(forced.refusal({"select", 2}));
+  EXPECT_EQ(forced.n_answers(), 2);
+  EXPECT_FALSE(forced.detects());
+  block.positive_answer = PositiveAnswer::correct_choice;
+  ASSERT_EQ(block.check().size(), 1u);
+  EXPECT_EQ(block.check()[0].keys.front(), "positive_answer");
+}
+
+TEST(ComparisonForcedChoice, IsAnsweredWithCubeByModels) {
+  const Comparison::Offer offer{ComparisonAnswers::heavier};
+  RandomStream stream(2, "test");
+  int n_left = 0;
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_EQ(Comparison::simulated(offer, {.remembered_mm = {0.2, 0.1}}, stream),
+              (Answer{{{"select", 1}}}));
+    n_left += Comparison::blind(offer, {.n_slots = 2}, stream).actions.at(0).slot == 1;
+  }
+  EXPECT_NEAR(n_left, 500, 60);
+}
+
+// An observer without noise names the heavier cube: 1-up-1-down crosses 0 and stays about it.
+TEST(ComparisonForcedChoice, LevelsOfBothSignsFollowTheResponses) {
+  Comparison::Block block;
+  block.name = "c";
+  block.answers = ComparisonAnswers::heavier;
+  block.staircases = {
+      {100, {"one", UpDownConfig{.start = 40, .step = 16, .floor = -80, .stop_reversals = 6}}}};
+  Comparison::Run run(block, 4);
+  std::vector<double> levels_g;
+  while (!run.finished()) {
+    TrialRow row;
+    row.plan = run.plan({4, static_cast<int>(levels_g.size()) + 1, 1});
+    levels_g.push_back(*row.plan.level_g);
+    row.outcome = "difference";
+    const int reference = *row.plan.reference_slot;
+    row.chosen_slot = *row.plan.level_g > 0 ? 3 - reference : reference;  // the heavier one
+    Changes changes;
+    run.complete(row, changes);
+  }
+  // by hand: 40 down to -8, then about 0
+  const std::vector<double> first(levels_g.begin(), levels_g.begin() + 6);
+  EXPECT_EQ(first, (std::vector<double>{40, 24, 8, -8, 8, -8}));
+}
+
 Comparison::Block block_of(Sides sides) {
   Comparison::Block block;
   block.name = "c";

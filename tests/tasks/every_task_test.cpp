@@ -178,6 +178,31 @@ TEST_P(EveryTask, IsPresentedAgainAfterVeto) {
 INSTANTIATE_TEST_SUITE_P(Each, EveryTask, ::testing::ValuesIn(words_of<Task>()),
                          [](const auto& task) { return std::string(task.param); });
 
+// A comparison without "no difference": every model names a cube, and the log is verified.
+TEST(ForcedChoice, IsSimulatedReplayedAndJudgedWithoutThirdAnswer) {
+  for (const std::string responder : {"simulated", "coin", "always_no"}) {
+    SCOPED_TRACE(responder);
+    const StoredSession stored(testing::shipped_protocol("examples/forced_choice"), responder, 5);
+    int n = 0;
+    for (const TrialRow& trial : stored.reader().trials(stored.id())) {
+      if (trial.plan.task != "comparison" || trial.status != TrialStatus::completed) continue;
+      EXPECT_EQ(trial.outcome, "difference");
+      EXPECT_TRUE(trial.chosen_slot);
+      ++n;
+    }
+    EXPECT_GE(n, 24 + 6);
+    EXPECT_FALSE(verify_session(stored.reader(), stored.id(), [](double) {}).first);
+    const Judgments judgments = judge_session(stored.reader(), stored.session(),
+                                              {{Plug{responder}}, 4}, nullptr, [](double) {});
+    for (const JudgedTrial& trial : judgments.trials)
+      if (trial.task == "comparison") {
+        EXPECT_EQ(trial.n_answers, 2);
+        EXPECT_FALSE(trial.detects);
+        EXPECT_EQ(trial.models.at(0).n_of("none"), 0);
+      }
+  }
+}
+
 // Mass and friction varied apart: in the log, in the lag that is displayed, and in a replay.
 TEST(OwnFriction, OfCubesIsLoggedDisplayedAndReplayed) {
   const StoredSession stored(testing::shipped_protocol("examples/friction"), "simulated", 5);

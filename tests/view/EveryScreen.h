@@ -120,6 +120,11 @@ inline std::vector<NamedScreen> task_screens(const ScreenTexts& texts) {
   for (const Task task : words_of<Task>()) {
     if (!texts.pages.contains(text_page(Screen::trial, task))) continue;
     all.push_back({"instructions_" + task, page_state(Screen::instructions, task)});
+    for (const std::string_view wording : task_named(task).wordings) {
+      ScreenState state = page_state(Screen::instructions, task);
+      state.wording = wording;
+      all.push_back({"instructions_" + task + ", " + state.wording, state});
+    }
     for (ScreenState state : fullest_screens(task)) {
       state.screen = Screen::trial;
       state.task = task;

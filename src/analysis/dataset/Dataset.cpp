@@ -16,7 +16,7 @@
 
 namespace heft {
 
-bool Attempt::is_usable_comparison() const {
+bool Attempt::has_comparison() const {
   return completed() && trial.plan.task == "comparison" && trial.outcome &&
          trial.plan.reference_g && trial.plan.level_g && !trial.plan.is_practice;
 }
@@ -153,6 +153,7 @@ struct Declared {
   std::optional<AnalysisPlan> plan;
   ExclusionRules exclusion;
   std::map<std::string, published::Condition> published_conditions;
+  std::set<std::string> forced;  // blocks of forced choices
 };
 
 constexpr std::array counted_kinds{event_kind<Note>,         event_kind<Deviation>,
@@ -163,7 +164,8 @@ constexpr std::array counted_kinds{event_kind<Note>,         event_kind<Deviatio
 std::map<std::string, StaircaseRun> staircases_in(const Protocol& protocol) {
   std::map<std::string, StaircaseRun> runs;
   for (const Block& block : protocol.blocks)
-    if (const auto* comparison = block_as<Comparison::Block>(block))
+    if (const auto* comparison = block_as<Comparison::Block>(block);
+        comparison && !comparison->is_forced())
       for (const ReferenceStaircase& entry : comparison->staircases)
         runs[entry.staircase.name()] = {
             std::make_shared<const Procedure>(entry.staircase),
@@ -174,13 +176,17 @@ std::map<std::string, StaircaseRun> staircases_in(const Protocol& protocol) {
 // --set may change a technique's parameters; the text stays as it was.
 Declared declared_in(const std::string& protocol_text,
                      const std::vector<ProtocolSetting>& settings) {
-  Declared declared{staircases_without_jnd(protocol_text), {}, {}, {}, {}};
+  Declared declared{staircases_without_jnd(protocol_text), {}, {}, {}, {}, {}};
   try {
     const Protocol protocol = parse_protocol(protocol_text, "protocol", settings);
     if (protocol.analysis.declares_any()) declared.plan = protocol.analysis;
     declared.exclusion = protocol.exclusion;
     declared.staircases = staircases_in(protocol);
     declared.published_conditions = published::conditions_in(protocol);
+    for (const Block& block : protocol.blocks)
+      if (const auto* comparison = block_as<Comparison::Block>(block);
+          comparison && comparison->is_forced())
+        declared.forced.insert(comparison->name);
   } catch (const Error&) {
   }
   return declared;
@@ -205,6 +211,8 @@ SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& 
   data.published_conditions = found->second.published_conditions;
   const std::vector<LoggedEvent> events = log.events(id, counted_kinds);
   data.frames = log.frame_counts(id);
+  for (Attempt& attempt : data.attempts)
+    attempt.is_forced = found->second.forced.contains(attempt.trial.plan.block);
   const auto turns_deg = log.clone_yaw_deg(id);
   for (Attempt& attempt : data.attempts)
     for (const CubeRow& cube : attempt.cubes)

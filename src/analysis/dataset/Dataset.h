@@ -28,10 +28,13 @@ struct Attempt {
   /// Largest turn of the clone against the hand while it touched a cube, by slot; only where frames
   /// were kept.
   std::map<int, double> clone_yaw_deg{};
+  bool is_forced = false;  ///< a comparison without the answer "no difference"
 
   bool completed() const { return trial.status == TrialStatus::completed; }
-  /// A completed comparison with an answer and a level, no practice.
-  bool is_usable_comparison() const;
+  /// A completed comparison with an answer and a level, no practice: of three answers, or forced.
+  bool is_usable_comparison() const { return has_comparison() && !is_forced; }
+  bool is_usable_forced_choice() const { return has_comparison() && is_forced; }
+  bool has_comparison() const;
   std::vector<double> masses_g() const;  ///< by slot
   /// Whether its cubes have these masses, given from light to heavy, and the protocol's friction.
   bool shows(std::span<const double> masses) const;

@@ -73,7 +73,8 @@ std::vector<StaircaseSettings> pair_of(TableReader& table, const StaircaseSettin
   return {{read.name + " from above", *above}, {read.name + " from below", below}};
 }
 
-std::vector<ReferenceStaircase> read_reference_staircases(TableReader& table, NamesInUse& names) {
+std::vector<ReferenceStaircase> read_reference_staircases(TableReader& table, NamesInUse& names,
+                                                          ComparisonAnswers answers) {
   double reference_g = 0;
   std::string condition;
   bool paired = false;
@@ -90,7 +91,7 @@ std::vector<ReferenceStaircase> read_reference_staircases(TableReader& table, Na
   const auto settings = read_staircase(table);
   if (!settings) return {};
   if (table.has("reference_g") && table.good({"reference_g"}))
-    check_beside(table, *settings, reference_g);
+    check_beside(table, *settings, reference_g, answers == ComparisonAnswers::heavier);
   std::vector<ReferenceStaircase> staircases;
   for (const StaircaseSettings& one :
        paired ? pair_of(table, *settings, start_below) : std::vector{*settings}) {
@@ -188,9 +189,10 @@ class KeyReader {
     field.trials = {all};
   }
   void read(std::string_view, InterleaveConfig& field) { field = read_interleaving(table_); }
-  void read(std::string_view key, std::vector<ReferenceStaircase>& field) {
+  void read(std::string_view key, StaircasesOf<Comparison::Block>& field) {
     for (TableReader& staircase : table_.tables(key))
-      std::ranges::move(read_reference_staircases(staircase, names_), std::back_inserter(field));
+      std::ranges::move(read_reference_staircases(staircase, names_, field.block.answers),
+                        std::back_inserter(field.block.staircases));
   }
   void read(std::string_view, CatchTrials<Comparison::Block>& field) {
     read_catches(table_, field.block);

@@ -33,9 +33,11 @@ std::optional<StaircaseSettings> read_staircase(TableReader& table) {
   return settings;
 }
 
-void check_beside(TableReader& table, const StaircaseSettings& settings, double reference_g) {
-  table.note(std::visit([&](const auto& config) { return config.check_beside(reference_g); },
-                        settings.config));
+void check_beside(TableReader& table, const StaircaseSettings& settings, double reference_g,
+                  bool either_sign) {
+  table.note(
+      std::visit([&](const auto& config) { return config.check_beside(reference_g, either_sign); },
+                 settings.config));
 }
 
 InterleaveConfig read_interleaving(TableReader& table) {

@@ -74,7 +74,9 @@ struct StaircaseSettings {
 std::optional<StaircaseSettings> read_staircase(TableReader& table);
 
 /// Reports settings that do not suit levels that are differences from a reference.
-void check_beside(TableReader& table, const StaircaseSettings& settings, double reference_g);
+/// @param either_sign the comparison may be lighter
+void check_beside(TableReader& table, const StaircaseSettings& settings, double reference_g,
+                  bool either_sign);
 
 /// Reads `interleave` and `max_lag`.
 InterleaveConfig read_interleaving(TableReader& table);

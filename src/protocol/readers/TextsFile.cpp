@@ -45,14 +45,19 @@ constexpr std::array later_pages{PageKeys{"declined", "title text take_back leav
                                  PageKeys{"setting_up", "title text"}};
 
 struct TaskPage {
-  std::string page;
-  std::string_view keys;
+  std::string page, keys;
+  std::string other_wordings = {};  // keys that only some of the task's blocks need
 };
 
 // A task's two pages. They may be missing or incomplete; a session with the task refuses that.
 std::vector<TaskPage> pages_of(std::string_view task) {
-  return {{text_page(Screen::instructions, task), "title text"},
-          {text_page(Screen::trial, task), task_named(task).texts}};
+  const TaskDeclaration& declaration = task_named(task);
+  std::string wordings;
+  for (const std::string_view wording : declaration.wordings)
+    wordings += ' ' + instructions_key(wording);
+  const Task name(task);
+  return {{text_page(Screen::instructions, name), "title text", wordings},
+          {text_page(Screen::trial, name), std::string(declaration.texts)}};
 }
 
 std::string trimmed(const std::string& text) {
@@ -226,8 +231,10 @@ ScreenTexts parse_texts(const std::string& text, const std::string& file) {
       texts.pages.emplace(keys.page, read_page(*table, keys));
   for (const std::string_view task : words_of<Task>())
     for (const TaskPage& page : pages_of(task))
-      if (auto table = reader.table(page.page))
-        texts.pages.emplace(page.page, read_page(*table, {page.page, "", page.keys}));
+      if (auto table = reader.table(page.page)) {
+        const std::string keys = page.keys + page.other_wordings;
+        texts.pages.emplace(page.page, read_page(*table, {page.page, "", keys}));
+      }
   read_questionnaires(reader, texts);
   reader.close();
   mistakes.throw_if_any();
@@ -240,7 +247,9 @@ void require_words(const ScreenTexts& texts, const SessionPlan& plan, const std:
     const auto* trials = std::get_if<TaskBlock>(&block);
     if (!trials) continue;
     for (const TaskPage& page : pages_of(trials->task().name)) {
-      std::istringstream words{std::string(page.keys)};
+      const bool is_worded = !trials->wording().empty() && !page.other_wordings.empty();
+      std::istringstream words{is_worded ? "title " + instructions_key(trials->wording())
+                                         : page.keys};
       for (std::string key; words >> key;)
         if (std::string text = fmt::format("[{}] {}", page.page, key);
             texts.if_any(page.page, key).empty() && std::ranges::count(missing, text) == 0)

@@ -36,13 +36,14 @@ void add_back(PageBuilder& builder) {
 // Writes the title and a part of the text in the middle of the space above the buttons.
 // @return whether it was the last part
 // @param n_rows of buttons below it
-bool add_text(PageBuilder& builder, const std::string& page, int wished_part, int n_rows = 1) {
+bool add_text(PageBuilder& builder, const std::string& page, int wished_part, int n_rows = 1,
+              const std::string& key = "text") {
   const Measures& m = builder.measures;
   const Rect area = builder.text_area(n_rows);
   const Lines title = builder.typeface.wrapped(builder.text(page, "title"), m.title, area.width);
   const float title_px = builder.height_px(title, m.title) + m.margin;
   const auto parts =
-      in_parts(builder, builder.typeface.wrapped(builder.text(page, "text"), m.body, area.width),
+      in_parts(builder, builder.typeface.wrapped(builder.text(page, key), m.body, area.width),
                area.height - title_px);
   const int n_parts = static_cast<int>(parts.size());
   const int part = std::min(wished_part, n_parts - 1);
@@ -68,8 +69,9 @@ void add_next(PageBuilder& builder, const std::string& word) {
                       touch_of(TouchKind::next));
 }
 
-void text_screen(PageBuilder& builder, const std::string& page, const std::string& next_word) {
-  if (add_text(builder, page, builder.memory.part) && builder.state.wait_s <= 0)
+void text_screen(PageBuilder& builder, const std::string& page, const std::string& next_word,
+                 const std::string& key = "text") {
+  if (add_text(builder, page, builder.memory.part, 1, key) && builder.state.wait_s <= 0)
     add_next(builder, next_word);
 }
 
@@ -200,7 +202,8 @@ void welcome_screen(PageBuilder& builder) {
 }
 
 void instructions_screen(PageBuilder& builder) {
-  text_screen(builder, text_page(Screen::instructions, builder.state.task), "next");
+  text_screen(builder, text_page(Screen::instructions, builder.state.task), "next",
+              instructions_key(builder.state.wording));
 }
 
 void rest_screen(PageBuilder& builder) {

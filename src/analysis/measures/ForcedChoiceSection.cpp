@@ -1,0 +1,235 @@
+// Comparisons in a forced choice (answers = "heavier"): how often the comparison was chosen at each
+// difference, and each participant's 75 % threshold and point of subjective equality.
+#include <fmt/format.h>
+
+#include <map>
+#include <span>
+#include <tuple>
+
+#include "analysis/measures/Section.h"
+#include "analysis/report/Notes.h"
+
+namespace heft {
+
+namespace {
+constexpr Measure threshold{
+    "forced_threshold_75", "g", "75 % threshold",
+    "difference in mass that makes 75 % of forced choices correct, lapses apart: cumulative normal "
+    "fitted to each participant by maximum likelihood with 2 % lapses; mean over participants, "
+    "Student's t interval; of one alone the fit's interval"};
+constexpr Measure pse{
+    "forced_pse", "g", "point of subjective equality",
+    "difference in mass at which the comparison is chosen in half of the forced choices, from the "
+    "same fit; where no comparison was lighter than its reference it is not estimated"};
+constexpr Measure chosen{"forced_chosen", "%", "the comparison",
+                         "share of forced choices at a difference in which the comparison was "
+                         "chosen, over participants"};
+
+constexpr double lapse_rate = 0.02;  // Wichmann & Hill 2001: a single lapse must not bend the curve
+
+FittedParameter scaled(FittedParameter parameter, double factor) {
+  for (auto* figure : {&parameter.value, &parameter.low, &parameter.high})
+    if (*figure) **figure *= factor;
+  return parameter;
+}
+
+struct Discrimination {
+  FittedParameter threshold;
+  std::optional<FittedParameter> pse;  // levels of both signs have one
+  std::string why;                     // there is none
+};
+
+// With levels of both signs the curve rises from 0 to 1: its center is the point of subjective
+// equality, and its spread the noise. Without, from 1/2: its center is the threshold.
+Discrimination fitted(const AnswersByLevel& answers) {
+  const bool both_signs = answers.begin()->first < 0;
+  const Fit fit =
+      fit_psychometric(answers, {.guess = both_signs ? lapse_rate : 0.5, .lapse = lapse_rate});
+  if (!both_signs) return {fit.parameter("threshold"), {}, fit.why};
+  return {scaled(fit.parameter("slope"), z_75), fit.parameter("threshold"), fit.why};
+}
+
+StudyEstimate over_people(const std::vector<const StudyEstimate*>& people) {
+  StudyEstimate estimate = *people.front();
+  estimate.participant.clear();
+  std::vector<double> values;
+  std::string why;
+  estimate.n_trials = 0;
+  for (const StudyEstimate* own : people) {
+    estimate.n_trials += own->n_trials;
+    if (own->value) values.push_back(*own->value);
+    if (!own->why.empty()) why = own->why;
+  }
+  estimate.n = static_cast<int>(values.size());
+  if (people.size() == 1) return estimate;
+  estimate.value = mean(values);
+  estimate.sd = sample_sd(values);
+  estimate.low.reset();
+  estimate.high.reset();
+  estimate.set(student_t_interval(values));
+  estimate.method = "Student's t";
+  estimate.why.clear();
+  if (values.size() < people.size())
+    estimate.why = fmt::format("{} of {} participants have none: {}", people.size() - values.size(),
+                               people.size(), why);
+  return estimate;
+}
+
+class ForcedChoiceSection final : public Section {
+ public:
+  void add(const SessionData& data) override {
+    for (const Attempt& attempt : data.attempts) {
+      const TrialPlan& plan = attempt.trial.plan;
+      if (!attempt.is_usable_forced_choice() || !attempt.trial.chosen_slot) continue;
+      const bool comparison = attempt.trial.chosen_slot != plan.reference_slot;
+      const Compared compared{*plan.reference_g, plan.condition};
+      const double level_g = *plan.level_g == 0 ? 0 : *plan.level_g;  // no -0
+      people_[compared][data.participant()][level_g][comparison ? 1 : 0] += 1;
+    }
+  }
+
+  Estimates of_participants(const Summary&) const override {
+    Estimates all;
+    for (const auto& [compared, people] : people_)
+      for (const auto& [participant, answers] : people) {
+        const Discrimination found = fitted(answers);
+        const auto put = [&, &its = compared, &name = participant, &given = answers](
+                             const Measure& measure, const FittedParameter& parameter) {
+          StudyEstimate& own = all.emplace_back(at(measure, its));
+          own.participant = name;
+          own.value = parameter.value;
+          own.low = parameter.low;
+          own.high = parameter.high;
+          own.n = 1;
+          own.n_trials = static_cast<int>(trials_in(given));
+          own.method = "maximum likelihood";
+          own.why = found.why;
+          if (!own.why.empty()) own.value = own.low = own.high = std::nullopt;
+        };
+        put(threshold, found.threshold);
+        if (found.pse) put(pse, *found.pse);
+      }
+    return all;
+  }
+
+  void put(Summary& summary) override {
+    const Estimates own = of_participants(summary);
+    std::map<std::tuple<double, std::string, std::string_view>, std::vector<const StudyEstimate*>>
+        groups;
+    for (const StudyEstimate& one : own)
+      groups[{*one.reference_g, one.condition, one.measure->name}].push_back(&one);
+    for (const auto& [key, people] : groups) summary.estimates.push_back(over_people(people));
+    for (const auto& [compared, people] : people_) put_shares(summary.estimates, compared, people);
+  }
+
+  std::vector<std::string> findings(const Summary& summary) const override {
+    std::vector<std::string> parts;
+    for (const StudyEstimate* one : estimates_of(summary.estimates, threshold.name)) {
+      const std::string where =
+          fmt::format("at {:g} g {}", *one->reference_g, in_condition(summary, one->condition));
+      if (!one->value)
+        parts.push_back("none " + where);
+      else if (!one->low || !one->high)
+        parts.push_back(fmt::format("{:.0f} g {}", *one->value, where));
+      else
+        parts.push_back(
+            fmt::format("{:.0f} g [{:.0f}, {:.0f}] {}", *one->value, *one->low, *one->high, where));
+    }
+    if (parts.empty()) return {};
+    return {fmt::format("Forced choice: the 75 % threshold is {}.", some_of(parts, 4))};
+  }
+
+  std::vector<EstimateTable> tables() const override {
+    EstimateTable thresholds{
+        "forced_choice",
+        "Forced choices: 75 % threshold and point of subjective equality",
+        {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+         column(threshold, Field::n, "n", "n"),
+         column(threshold, Field::n_trials, "n_trials", "trials"),
+         column(threshold, Field::value, "threshold_75_g", "threshold g")},
+        "cumulative normal fitted to each participant, with 2 % lapses; mean over participants "
+        "with "
+        "Student's t interval, of one alone the fit's",
+        TablePlace::results,
+        "forced_choice[]"};
+    add_interval(thresholds.columns, threshold, "low_g", "high_g", 1);
+    thresholds.columns.push_back(column(pse, Field::value, "pse_g", "PSE g"));
+    add_interval(thresholds.columns, pse, "pse_low_g", "pse_high_g", 1);
+    thresholds.columns.push_back(column(threshold, Field::why, "why", "no threshold: why"));
+    EstimateTable by_level{
+        "forced_choice_by_level",
+        "Forced choices of the comparison by difference",
+        {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+         key_column("level_g", "difference g"),
+         column(chosen, Field::n_trials, "n_trials", "trials"),
+         column(chosen, Field::n_hits, "n_chosen", "chosen"),
+         column(chosen, Field::value, "chosen_percent", "%")},
+        "",
+        TablePlace::csv};
+    add_interval(by_level.columns, chosen, "low_percent", "high_percent", 1);
+    EstimateTable people{
+        "forced_choice_by_participant",
+        "Each participant's 75 % threshold in forced choices",
+        {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+         key_column("participant", "participant"),
+         column(threshold, Field::value, "threshold_75_g", "threshold g"),
+         column(threshold, Field::low, "low_g", "low"),
+         column(threshold, Field::high, "high_g", "high"),
+         column(pse, Field::value, "pse_g", "PSE g"),
+         column(threshold, Field::n_trials, "n_trials", "trials"),
+         column(threshold, Field::why, "why", "no threshold: why")},
+        "",
+        TablePlace::csv};
+    people.participants = true;
+    return {thresholds, by_level, people};
+  }
+
+  std::vector<ChartSpec> charts() const override {
+    return {{.name = "forced_choice",
+             .title = "Forced choices of the comparison by difference",
+             .caption =
+                 "Percentage of trials in which the comparison was chosen, by its mass minus "
+                 "the reference's; 95 % intervals over participants.",
+             .csv = "forced_choice_by_level.csv",
+             .importance = 38,
+             .series = {{&chosen}},
+             .x = "level_g",
+             .panels = {"reference_g", "condition"},
+             .x_label = "difference (g)",
+             .y_label = "% of trials",
+             .axes = "set yrange [0:100]\n"}};
+  }
+
+ private:
+  using People = std::map<std::string, AnswersByLevel>;
+
+  static StudyEstimate at(const Measure& measure, const Compared& compared) {
+    return {&measure, "comparison", compared.condition, compared.reference_g};
+  }
+
+  static void put_shares(Estimates& all, const Compared& compared, const People& people) {
+    std::map<double, Tallies> by_level;
+    for (const auto& [participant, answers] : people)
+      for (const auto& [level_g, n] : answers) {
+        Tally& tally = by_level[level_g][participant];
+        tally.n_hits = static_cast<int>(n[1]);
+        tally.n_trials = static_cast<int>(n[0] + n[1]);
+      }
+    for (const auto& [level_g, tallies] : by_level) {
+      StudyEstimate& share = all.emplace_back(rate_estimate(chosen, rate_of(tallies)));
+      share.task = "comparison";
+      share.condition = compared.condition;
+      share.reference_g = compared.reference_g;
+      share.by = {heft::at("level_g", level_g)};
+    }
+  }
+
+  std::map<Compared, People> people_;
+};
+}  // namespace
+
+std::shared_ptr<Section> forced_choice_section() {
+  return std::make_shared<ForcedChoiceSection>();
+}
+
+}  // namespace heft
