@@ -130,7 +130,8 @@ class Parsed(SessionTest):
         names = []
         for word in words[:2]:  # a command, and a command of it
             known = subprocess.run([*program, *names, "--help"], capture_output=True, text=True).stdout
-            commands = re.findall(r"^  ([a-z]+)\s", known.partition("\nCommands")[2], re.M)
+            listed = known.partition("\nCommands")[2] if names else known  # the program's: no heading
+            commands = re.findall(r"^  ([a-z]+)\s", listed, re.M)
             if word in commands:
                 names.append(word)
             elif not names and re.fullmatch("[a-z]+", word):
