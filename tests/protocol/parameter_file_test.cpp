@@ -39,7 +39,6 @@ TEST_P(BrokenParameters, IsOneMistakeAtItsPlace) {
 const std::vector<Broken> broken_parameters{
     {"array", {"= 3", "= ^[3]"}, {"alpha is an array"}},
     {"table", {"cue = \"offset\"", "^[cue]"}, {"cue is a table"}},
-    {"dotted_key", {"cue =", "^cue.name ="}, {"cue is a table"}},
     {"not_a_number", {"0.5", "^nan"}, {"zeta is nan", "finite"}},
     {"overflow", {"0.5", "^1e999"}, {"zeta is 1e999"}},
     {"date", {"0.5", "^2024-05-01"}, {"zeta is a date"}},

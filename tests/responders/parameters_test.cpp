@@ -123,12 +123,14 @@ TEST(Populations, MistakesAreReportedAtTheirPlaces) {
                              {"hold.spread", 0.1, {"p.toml", 2, 1}},
                              {"correlation.hold_s.pause_s", 1.0, {"p.toml", 3, 9}},
                              {"correlation.hold_s.hold_s", 0.5, {"p.toml", 4, 9}},
-                             {"hold_s.mean", 1.0, {"p.toml", 5, 9}}});
+                             {"hold_s.mean", 1.0, {"p.toml", 5, 9}},
+                             {"cue.name", std::string("offset"), {"p.toml", 6, 12}}});
   EXPECT_THAT(text, HasSubstr("p.toml:1:1: hold_s.spread is 4, expected 0 to 3"));
   EXPECT_THAT(text, HasSubstr("p.toml:2:1: unknown parameter \"hold\", did you mean"));
   EXPECT_THAT(text, HasSubstr("p.toml:3:9: correlation.hold_s.pause_s is 1, expected a number"));
   EXPECT_THAT(text, HasSubstr("p.toml:4:9: correlation.hold_s.hold_s is a correlation of a"));
   EXPECT_THAT(text, HasSubstr("p.toml:5:9: unknown parameter \"hold_s.mean\""));
+  EXPECT_THAT(text, HasSubstr("p.toml:6:12: unknown parameter \"cue.name\""));
   EXPECT_THAT(refusal("population", {{"correlation.hold_s.pause_s", 0.9, {"p.toml", 1, 1}},
                                      {"correlation.hold_s.think_s", 0.9, {"p.toml", 2, 1}},
                                      {"correlation.pause_s.think_s", -0.9, {"p.toml", 3, 1}}}),
