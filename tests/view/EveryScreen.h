@@ -122,6 +122,7 @@ inline std::vector<NamedScreen> task_screens(const ScreenTexts& texts) {
     all.push_back({"instructions_" + task, page_state(Screen::instructions, task)});
     for (const std::string_view wording : task_named(task).wordings) {
       ScreenState state = page_state(Screen::instructions, task);
+      if (texts.if_any(text_page(state), instructions_key(wording)).empty()) continue;
       state.wording = wording;
       all.push_back({"instructions_" + task + ", " + state.wording, state});
     }
