@@ -115,6 +115,7 @@ protocol = "asks.toml"
                 line,
                 rf"^{re.escape(str(path))}: ok, a protocol: about \d+ trials"
                 r"( \(\d+ to \d+ in 6 simulated participants\))? and \d+ min"
+                r".*; what a study can find: heft power$"
             )
 
     def test_a_simulator_for_one_stroke_is_warned_of_and_no_mistake(self):

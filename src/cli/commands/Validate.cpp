@@ -113,7 +113,7 @@ std::string described(const Protocol& protocol, std::vector<std::string>& cautio
                                  counted(std::lround(total_of(trials)), "trial"), simulated,
                                  expected_minutes(protocol, trials), assumed_text(trials));
   if (protocol.simulator.name == "auto") text += "; " + described(resolve_auto(protocol));
-  return text;
+  return text + "; what a study can find: heft power";
 }
 
 // Summary and cautions of a valid file.
