@@ -175,13 +175,19 @@ ordered_json object_of(const EstimatePrecision& one) {
 
 // Chart.
 
-std::string lines_of(const std::vector<std::string>& names, const std::string& prefix) {
+// Series stand side by side, since many are equal.
+std::string lines_of(const std::vector<std::string>& names, const std::string& prefix,
+                     int largest) {
+  const auto aside_of = [largest](std::size_t i, std::size_t n) {
+    return 0.012 * largest * (static_cast<double>(i) - 0.5 * static_cast<double>(n - 1));
+  };
   std::string terms;
   for (std::size_t i = 0; i < names.size(); ++i)
     terms += fmt::format(
-        "{}${}{} using 1:2:3:4 with yerrorlines pointtype {} pointsize 0.8 linewidth 1.5 "
+        "{}${}{} using ($1+{}):2:3:4 with yerrorlines pointtype {} pointsize 0.8 linewidth 1.5 "
         "linecolor '{}' title {}",
-        i == 0 ? "" : ", ", prefix, i, series_sign(i), series_color(i), gnuplot_quoted(names[i]));
+        i == 0 ? "" : ", ", prefix, i, aside_of(i, names.size()), series_sign(i), series_color(i),
+        gnuplot_quoted(names[i]));
   return terms;
 }
 
@@ -224,7 +230,7 @@ std::string as_json(const std::vector<ModelPower>& all) {
 }
 
 void draw_power(const ModelPower& found, const std::string& file) {
-  constexpr int width_px = 900, top_px = 108, plot_px = 330, bottom_px = 110;
+  constexpr int width_px = 900, plot_px = 330, bottom_px = 110, key_line_px = 18;
   const Power& power = found.power;
   std::vector<std::string> hypotheses, figures;
   std::string data;
@@ -248,6 +254,8 @@ void draw_power(const ModelPower& found, const std::string& file) {
     figures.push_back(name_of(one));
   }
   const int largest = power.sizes.back().participants;
+  const int n_keys = static_cast<int>(std::max(hypotheses.size(), figures.size()));
+  const int top_px = 50 + key_line_px * n_keys;
   const auto panel = [&](double left, double right, const std::string& axes,
                          const std::string& terms) {
     return gnuplot_place(left, right, top_px, top_px + plot_px) +
@@ -263,16 +271,16 @@ void draw_power(const ModelPower& found, const std::string& file) {
                {svg, width_px, top_px + plot_px + bottom_px,
                 fmt::format("What a study of {} can find", found.protocol),
                 fmt::format(
-                    "{} simulated studies with people of the model {}. Left: with exact 95 % "
+                    "{} simulated studies with people of the model \"{}\". Left: with exact 95 % "
                     "intervals; dotted: 80 %. Right: median figure and median interval. "
                     "Made by: heft power (seed {})",
                     power.n_studies, found.model, found.seed)}) +
            data + "set multiplot\n" +
            panel(0.1, 0.47, "set ylabel '% of studies that support it'\nset yrange [0:100]\n",
                  "80 with lines dashtype 3 linecolor '#999999' notitle" +
-                     (hypotheses.empty() ? "" : ", " + lines_of(hypotheses, "h"))) +
+                     (hypotheses.empty() ? "" : ", " + lines_of(hypotheses, "h", largest))) +
            panel(0.59, 0.97, "set ylabel 'g'\nset logscale y\nset yrange [*:*]\n",
-                 figures.empty() ? "NaN notitle" : lines_of(figures, "f")) +
+                 figures.empty() ? "NaN notitle" : lines_of(figures, "f", largest)) +
            "unset multiplot\n";
   });
 }
