@@ -5,8 +5,8 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <ranges>
 #include <set>
+#include <span>
 
 #include "base/Names.h"
 #include "cli/console/Terminal.h"
@@ -115,7 +115,7 @@ void print_groups(const JudgedLog& log, const std::vector<GroupScores>& groups, 
   print("\n{:<{}} {:>5}", "log score by task", group_width, "n");
   for (std::size_t i = 0; i < n; ++i) print(" {:>14}", short_name(log.names[i], 14));
   print(" {:>6}\n", "shares");
-  for (const GroupScores& group : groups | std::views::take(n_shown)) {
+  for (const GroupScores& group : std::span(groups).first(static_cast<std::size_t>(n_shown))) {
     print("{:<{}} {:>5}", short_name(name_of(group), group_width), group_width, group.n_trials);
     for (std::size_t i = 0; i < n; ++i) print(" {:>14.2f}", group.models[i].log_score.value);
     print(" {:>6.2f}\n", group.shares.value);
