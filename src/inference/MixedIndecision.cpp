@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/Parallel.h"
 #include "inference/PopulationLikelihood.h"
 
 namespace heft {
@@ -104,6 +105,22 @@ OwnSensitivity own_sensitivity(const AnswersByLevel& answers, double largest_g,
   return own;
 }
 
+std::map<std::string, OwnSensitivity> own_sensitivities(const AnswersByPerson& people,
+                                                        double largest_g,
+                                                        const Parameters& population) {
+  std::vector<const AnswersByLevel*> answers;
+  for (const auto& [participant, theirs] : people) answers.push_back(&theirs);
+  std::vector<OwnSensitivity> found(answers.size());
+  in_parallel(answers.size(), 8, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      found[i] = own_sensitivity(*answers[i], largest_g, population);
+  });
+  std::map<std::string, OwnSensitivity> all;
+  for (std::size_t i = 0; const auto& [participant, theirs] : people)
+    all.emplace_hint(all.end(), participant, found[i++]);
+  return all;
+}
+
 MixedFigure figure(double log_value, const PopulationLikelihood::ProfileInterval& logs,
                    double unit = 1) {
   MixedFigure found{std::exp(log_value) * unit};
@@ -194,8 +211,7 @@ void put_population(MixedFit& found, const AnswersByPerson& people, double large
       why_no_threshold(range_of(population.log_sensitivity, people, largest_g), {largest_g});
   if (!population.log_sensitivity.high) return;
   found.log_likelihood = population.best.log_likelihood;
-  for (const auto& [participant, answers] : people)
-    found.people[participant] = own_sensitivity(answers, largest_g, at);
+  found.people = own_sensitivities(people, largest_g, at);
   found.indecision = figure(at[mean_log_criterion], population.log_criterion);
   found.lapse =
       MixedFigure{at[shared_lapse], population.lapse.low.value_or(0), population.lapse.high};

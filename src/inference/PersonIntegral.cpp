@@ -293,8 +293,8 @@ double PersonIntegral::log_likelihood(const Parameters& population, Derivatives*
     moments.add(weight, term.z);
   }
   score_ = slope;
-  derivatives->gradient += slope;
-  derivatives->hessian += bend - slope * slope.transpose() + density_bends(people, moments);
+  derivatives->gradient = slope;
+  derivatives->hessian = bend - slope * slope.transpose() + density_bends(people, moments);
   return value;
 }
 

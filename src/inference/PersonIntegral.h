@@ -39,7 +39,7 @@ class PersonIntegral {
 
   /// @param population a start for the person's own effects if they are unknown
   void center(const Parameters& population);
-  /// Log of the integral. @param derivatives by the population, to be added to; null: not needed
+  /// Log of the integral. @param derivatives by the population; null: not needed
   double log_likelihood(const Parameters& population, Derivatives* derivatives);
   /// Gradient of the last log_likelihood with derivatives.
   const Parameters& score() const { return score_; }

@@ -4,9 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/Parallel.h"
 #include "inference/Statistics.h"
 
 namespace heft {
+
+namespace {
+// Fewer take less time than a thread does to start.
+constexpr std::size_t people_at_once = 32;
+}  // namespace
 
 PopulationLikelihood::PopulationLikelihood(const std::vector<std::vector<LevelAnswers>>& people)
     : bounds_(n_population_parameters) {
@@ -39,10 +45,19 @@ Parameters PopulationLikelihood::start(double log_sensitivity) const {
 }
 
 void PopulationLikelihood::center(const Parameters& at) {
-  for (PersonIntegral& person : people_) person.center(at);
+  in_parallel(people_.size(), people_at_once, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) people_[i].center(at);
+  });
 }
 
+// Added up in the order of people, so that the sum does not depend on the number of processors.
 double PopulationLikelihood::value(const Parameters& at, Derivatives* derivatives) {
+  std::vector<double> values(people_.size());
+  std::vector<Derivatives> terms(derivatives ? people_.size() : 0);
+  in_parallel(people_.size(), people_at_once, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      values[i] = people_[i].log_likelihood(at, derivatives ? &terms[i] : nullptr);
+  });
   if (derivatives) {
     derivatives->gradient.setZero(n_population_parameters);
     derivatives->hessian.setZero(n_population_parameters, n_population_parameters);
@@ -54,7 +69,11 @@ double PopulationLikelihood::value(const Parameters& at, Derivatives* derivative
     derivatives->gradient[arctanh_correlation] = -2 * rho;
     derivatives->hessian(arctanh_correlation, arctanh_correlation) = -2 * (1 - rho * rho);
   }
-  for (PersonIntegral& person : people_) sum += person.log_likelihood(at, derivatives);
+  for (const double value : values) sum += value;
+  for (const Derivatives& term : terms) {
+    derivatives->gradient += term.gradient;
+    derivatives->hessian += term.hessian;
+  }
   return sum;
 }
 

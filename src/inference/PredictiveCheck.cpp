@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/Parallel.h"
+
 namespace heft {
 
 namespace {
@@ -296,8 +298,8 @@ std::optional<PredictedShares::Band> band(const std::vector<std::vector<Shares>>
 }
 
 // Of few people many studies, of many few: a hundred distinguish a share of .05 from .1.
-int studies_for(std::size_t n_people) {
-  return static_cast<int>(std::clamp<std::size_t>(100'000 / n_people, 100, 500));
+std::size_t studies_for(std::size_t n_people) {
+  return std::clamp<std::size_t>(100'000 / n_people, 100, 500);
 }
 }  // namespace
 
@@ -316,22 +318,24 @@ PredictiveCheck check_predictions(const MixedFit& fit, std::span<const PersonRun
     seen.add_catch(person.n_catch, person.n_catch_none);
     seen.end_person();
   }
-  std::vector<std::vector<double>> predicted;
-  std::vector<std::vector<Shares>> by_level;
-  const int n_studies = studies_for(people.size());
-  for (int i = 0; i < n_studies; ++i) {
-    SimulatedStudy study(fit, seed, static_cast<std::uint64_t>(i));
-    StudyTally tally(edges_g);
-    for (std::size_t k = 0; k < people.size(); ++k) {
-      study.meet_someone();
-      for (std::size_t j = 0; j < people[k].staircases.size(); ++j)
-        study.run(people[k].staircases[j], ended[k][j], tally);
-      study.catch_trials(people[k].n_catch, tally);
-      tally.end_person();
+  const std::size_t n_studies = studies_for(people.size());
+  std::vector<std::vector<double>> predicted(n_studies);
+  std::vector<std::vector<Shares>> by_level(n_studies);
+  in_parallel(n_studies, 20, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      SimulatedStudy study(fit, seed, i);
+      StudyTally tally(edges_g);
+      for (std::size_t k = 0; k < people.size(); ++k) {
+        study.meet_someone();
+        for (std::size_t j = 0; j < people[k].staircases.size(); ++j)
+          study.run(people[k].staircases[j], ended[k][j], tally);
+        study.catch_trials(people[k].n_catch, tally);
+        tally.end_person();
+      }
+      predicted[i] = tally.figures();
+      by_level[i] = tally.by_level();
     }
-    predicted.push_back(tally.figures());
-    by_level.push_back(tally.by_level());
-  }
+  });
   PredictiveCheck check;
   for (std::size_t place = 0; place < by_level.front().size(); ++place)
     check.by_level.push_back({band(by_level, place, &Shares::heavier),
