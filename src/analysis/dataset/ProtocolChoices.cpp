@@ -149,6 +149,18 @@ std::vector<ProtocolChoice> RunAs::choices(const std::string& protocol) const {
   return choices;
 }
 
+std::string RunAs::programs() const {
+  return joined(programs_);
+}
+
+std::string RunAs::simulators() const {
+  return joined(simulators_);
+}
+
+std::string RunAs::rates_hz() const {
+  return joined(rates_);
+}
+
 void ChoicesFold::add(const SessionData& data) {
   const SessionHeader& header = data.session.header;
   const std::vector<ProtocolSetting> settings = changed_by(data);
@@ -163,12 +175,22 @@ void ChoicesFold::add(const SessionData& data) {
   }
   Ran& ran = ran_[place->second];
   if (ran.protocol) ran.run_as.add(data, *ran.protocol);
+  ran.participants.insert(data.participant());
+  for (const Attempt& attempt : data.attempts) ran.conditions.insert(attempt.trial.plan.condition);
 }
 
 std::vector<ProtocolChoice> ChoicesFold::result() const {
+  std::vector<ProtocolChoice> all;
+  for (const RanProtocol& ran : protocols())
+    for (const auto& choices : {ran.run_as.choices(ran.protocol.name), choices_in(ran.protocol)})
+      all.insert(all.end(), choices.begin(), choices.end());
+  return all;
+}
+
+std::vector<RanProtocol> ChoicesFold::protocols() const {
   std::map<std::string, std::set<std::string>> hashes_by_name;
   for (const Ran& ran : ran_) hashes_by_name[ran.name].insert(ran.sha256);
-  std::vector<ProtocolChoice> all;
+  std::vector<RanProtocol> all;
   for (const Ran& ran : ran_) {
     if (!ran.protocol) continue;
     Protocol protocol = *ran.protocol;
@@ -176,8 +198,7 @@ std::vector<ProtocolChoice> ChoicesFold::result() const {
     if (hashes_by_name[ran.name].size() > 1)
       protocol.name = fmt::format("{} {:.8}", ran.name, ran.sha256);
     if (ran.is_changed) protocol.name += " with --set";
-    for (const auto& choices : {ran.run_as.choices(protocol.name), choices_in(protocol)})
-      all.insert(all.end(), choices.begin(), choices.end());
+    all.push_back({std::move(protocol), ran.run_as, ran.participants, ran.conditions});
   }
   return all;
 }

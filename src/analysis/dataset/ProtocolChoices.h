@@ -25,9 +25,19 @@ class RunAs {
  public:
   void add(const SessionData& data, const Protocol& protocol);
   std::vector<ProtocolChoice> choices(const std::string& protocol) const;
+  std::string programs() const;
+  std::string simulators() const;
+  std::string rates_hz() const;
 
  private:
   std::set<std::string> hashes_, seeds_, programs_, simulators_, rates_, settings_, orders_;
+};
+
+/// A protocol as its sessions ran it.
+struct RanProtocol {
+  Protocol protocol;  ///< by its name in ProtocolChoice
+  RunAs run_as;
+  std::set<std::string> participants, conditions;
 };
 
 /// Those of every protocol that the sessions ran, each once. A logged text that is no protocol has
@@ -36,6 +46,7 @@ class ChoicesFold {
  public:
   void add(const SessionData& data);
   std::vector<ProtocolChoice> result() const;
+  std::vector<RanProtocol> protocols() const;
 
  private:
   struct Ran {
@@ -43,6 +54,7 @@ class ChoicesFold {
     std::string name, sha256;
     bool is_changed = false;  // by --set
     RunAs run_as;
+    std::set<std::string> participants, conditions;
   };
   std::vector<Ran> ran_;                       // in the order of sessions
   std::map<std::string, std::size_t> places_;  // by what makes it one protocol

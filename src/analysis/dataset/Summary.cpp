@@ -119,6 +119,7 @@ Summary summarize(Summary summary, const EachSession& each, int n_withdrawn) {
   summary.plan = everybody.plan.result();
   summary.quality = everybody.quality.result();
   summary.flow = everybody.flow.result(summary.participants, n_withdrawn);
+  summary.protocols = everybody.choices.protocols();
   summary.choices = everybody.choices.result();
   summary.setups = everybody.setups.result();
   summary.incidents = everybody.incidents.result();

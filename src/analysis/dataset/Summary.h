@@ -83,6 +83,7 @@ struct Summary {
   std::vector<Hypothesis> hypotheses;
   /// Which conditions are the paper's, by technique; masses may differ.
   std::map<std::string, published::Comparable> comparable;
+  std::vector<RanProtocol> protocols;
   std::vector<ProtocolChoice> choices;
   std::vector<SetupValue> setups;
   std::vector<Incident> incidents;

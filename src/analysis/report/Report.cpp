@@ -11,6 +11,7 @@
 
 #include "analysis/charts/Charts.h"
 #include "analysis/charts/Plot.h"
+#include "analysis/report/Methods.h"
 #include "analysis/report/Notes.h"
 #include "analysis/report/Tables.h"
 #include "base/Error.h"
@@ -141,6 +142,18 @@ std::string hypotheses_html(const Summary& summary) {
   return html + "</dl>\n";
 }
 
+// To be pasted by an author.
+std::string methods_html(const Methods& methods) {
+  if (methods.paragraphs.empty()) return "";
+  std::string html = "<h2 id=\"methods\">Methods</h2>\n";
+  for (const std::string& paragraph : methods.paragraphs)
+    html += fmt::format("<p>{}</p>\n", html_escaped(paragraph));
+  html += "<ul class=\"note\">\n";
+  for (const std::string& reference : methods.references)
+    html += fmt::format("<li>{}</li>\n", html_escaped(reference));
+  return html + "</ul>\n";
+}
+
 std::string figure_html(const DrawnChart& drawn, int number) {
   const Chart& chart = drawn.chart;
   std::string html =
@@ -235,6 +248,7 @@ std::string contents_html(const std::vector<DrawnChart>& charts, const ReportSec
       link("table_" + table.name, html_escaped(table.title));
   };
   if (with_hypotheses) link("hypotheses", "The paper's hypotheses");
+  link("methods", "Methods");
   tables(sections.first);
   for (std::size_t i = 0; i < charts.size(); ++i)
     link(charts[i].chart.name,
@@ -249,7 +263,8 @@ std::string report_page(const Summary& summary, const std::vector<DrawnChart>& c
   const ReportSections sections = sections_of(summary);
   const std::string hypotheses = hypotheses_html(summary);
   std::string html = head_html(summary) + contents_html(charts, sections, !hypotheses.empty());
-  html += hypotheses + section_html(sections.first) + "<h2>Figures</h2>\n";
+  html += hypotheses + methods_html(methods_of(summary)) + section_html(sections.first) +
+          "<h2>Figures</h2>\n";
   for (std::size_t i = 0; i < charts.size(); ++i)
     html += figure_html(charts[i], static_cast<int>(i) + 1);
   if (charts.empty()) html += "<p class=\"note\">No charts were drawn.</p>\n";

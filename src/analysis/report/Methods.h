@@ -1,0 +1,55 @@
+// The methods of a study in sentences that an author can paste: every number is the study's own,
+// from its logs and the protocols in them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/dataset/Summary.h"
+
+namespace heft {
+
+/// What the methods cite, in the order of `sources` in Methods.cpp.
+enum class Source {
+  technique,
+  up_down,
+  weighted_up_down,
+  quest,
+  quest_plus,
+  psi,
+  two_ac,
+  indecision,
+  quadrature,
+  tobit,
+  clustered,
+  magnitudes
+};
+
+/// Collects what was cited.
+class Citations {
+ public:
+  /// "Levitt, 1971"; in the list from now on.
+  std::string cite(Source source);
+  /// Those cited, in full, by author.
+  std::vector<std::string> references() const;
+
+ private:
+  std::vector<Source> cited_;
+};
+
+struct Methods {
+  std::vector<std::string> paragraphs;  ///< participants, apparatus and tasks, data, analysis
+  std::vector<std::string> references;
+};
+
+/// Empty without sessions.
+Methods methods_of(const Summary& summary);
+
+/// The blocks of a protocol in their order; in MethodsTasks.cpp.
+std::string tasks_in_words(const Protocol& protocol, Citations& citations);
+
+/// "15, 200 and 800"; of nothing empty.
+std::string listed(const std::vector<std::string>& items);
+std::string listed_g(const std::vector<double>& masses_g);
+
+}  // namespace heft
