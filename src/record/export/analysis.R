@@ -264,21 +264,67 @@ by_start <- function(here, results, side) {
 
 # Sensitivity: comparison, none or reference -------------------------------------------------------
 
-# D = s x + b + N(0, 1): comparison if D > t, reference if D < -t. Pools all trials, as
-# `heft fit choices.csv --model indecision --by compared`; intervals need the mixed model.
-indecision_fits <- function() {
+# The indecision model: D = s x + b + N(0, 1); comparison if D > tau, reference if D < -tau, otherwise
+# none. 75 %-correct threshold of a forced choice: qnorm(0.75) / s.
+
+compared_choices <- function(compared) {
+  here <- choices[choices$compared == compared, ]
+  here$answer <- factor(here$answer, c("reference", "none", "comparison"), ordered = TRUE)
+  here$person <- factor(here$person)
+  here$unit <- max(abs(here$level_g))
+  here$x <- here$level_g / here$unit
+  here
+}
+can_be_fitted <- function(here) all(table(here$answer) > 0) && length(unique(here$level_g)) > 1
+
+# Mixed model: the sensitivity s varies over participants. heft analyse's model also has lapses, and
+# criteria and biases that vary; see the last lines of this part for it.
+mixed_fits <- function() {
   if (!requireNamespace("ordinal", quietly = TRUE)) return(cat("ordinal is not installed: no fit.\n"))
   for (compared in unique(choices$compared)) {
-    here <- choices[choices$compared == compared, ]
+    here <- compared_choices(compared)
+    n <- nlevels(here$person)
+    if (!can_be_fitted(here) || n < 5 || n > 100) {
+      cat(compared, ": ", n, " participants; mixed fits are of 5 to 100, with all three answers\n", sep = "")
+      next
+    }
+    fit <- tryCatch(suppressWarnings(ordinal::clmm(answer ~ x + (0 + x | person), data = here,
+                                                   link = "probit", threshold = "symmetric")),
+                    error = identity)
+    if (inherits(fit, "error")) {
+      cat(compared, ": ", conditionMessage(fit), "\n", sep = "")
+      next
+    }
+    unit <- here$unit[1]
+    s <- fit$beta[["x"]] / unit
+    se <- tryCatch(coef(summary(fit))["x", "Std. Error"], error = function(e) NA) / unit
+    spread <- unname(unlist(fit$ST)[1]) / unit
+    # Not identifiable if the interval of the sensitivity holds 0.
+    threshold_g <- if (isTRUE(s > qnorm(0.975) * se)) qnorm(0.75) / s else NA
+    cat(sprintf("%s: sensitivity %s per g (SE %s, SD between participants %s), ", compared, number(s),
+                number(se), number(spread)),
+        sprintf("threshold %s g; %d participants\n", trimws(number(threshold_g)), n), sep = "")
+    record_mixed <- function(figure, value)
+      record(paste0("mixed.", figure), here$condition[1], here$reference_g[1], value)
+    record_mixed("sensitivity", s)
+    record_mixed("sensitivity_se", se)
+    record_mixed("sd_sensitivity", spread)
+    record_mixed("threshold_75_g", threshold_g)
+  }
+}
+
+# Pools all trials, as `heft fit choices.csv --model indecision --by compared`. Staircases show larger
+# differences to less sensitive participants, so that pooled thresholds are too large.
+pooled_fits <- function() {
+  if (!requireNamespace("ordinal", quietly = TRUE)) return(cat("ordinal is not installed: no fit.\n"))
+  for (compared in unique(choices$compared)) {
+    here <- compared_choices(compared)
     condition <- here$condition[1]
     reference <- here$reference_g[1]
-    here$answer <- factor(here$answer, c("reference", "none", "comparison"), ordered = TRUE)
-    if (any(table(here$answer) == 0) || length(unique(here$level_g)) < 2) {
+    if (!can_be_fitted(here)) {
       cat(compared, ": not all answers or too few levels, no fit\n", sep = "")
       next
     }
-    unit <- max(abs(here$level_g))
-    here$x <- here$level_g / unit
     fit <- tryCatch(ordinal::clm(answer ~ x, data = here, link = "probit",
                                  control = list(gradTol = 1e-8, maxIter = 200)), error = identity)
     if (inherits(fit, "error")) {
@@ -286,7 +332,7 @@ indecision_fits <- function() {
       next
     }
     theta <- fit$alpha
-    s <- unname(fit$beta) / unit
+    s <- unname(fit$beta) / here$unit[1]
     cat(sprintf("%s: sensitivity %s per g, indecision %s, bias %s, log likelihood %s, %d trials\n",
                 compared, number(s), number((theta[[2]] - theta[[1]]) / 2),
                 number(-(theta[[1]] + theta[[2]]) / 2), number(as.numeric(logLik(fit))),
@@ -295,22 +341,43 @@ indecision_fits <- function() {
     record("indecision.indecision", condition, reference, (theta[[2]] - theta[[1]]) / 2)
     record("indecision.bias", condition, reference, -(theta[[1]] + theta[[2]]) / 2)
     record("indecision.log_likelihood", condition, reference, as.numeric(logLik(fit)))
-    mixed_fit(here, compared, unit)
   }
 }
 
-# Random sensitivities of participants.
-mixed_fit <- function(here, compared, unit) {
-  here$person <- factor(here$person)
-  if (nlevels(here$person) < 5 || nlevels(here$person) > 100) return(invisible())
-  fit <- tryCatch(suppressWarnings(ordinal::clmm(answer ~ x + (0 + x | person), data = here,
-                                                 link = "probit", threshold = "symmetric")),
-                  error = identity)
-  if (inherits(fit, "error")) return(cat("  mixed:", conditionMessage(fit), "\n"))
-  at <- tryCatch(coef(summary(fit))["x", ], error = function(e) c(fit$beta[["x"]], NA, NA, NA))
-  cat(sprintf("  mixed: sensitivity %s per g (SE %s), SD between people %s\n", number(at[1] / unit),
-              number(at[2] / unit), number(sqrt(unlist(fit$ST)[1]^2) / unit)))
-}
+# For posteriors instead of maximum likelihood: the mixed indecision model of heft analyse, without
+# lapses, in brms (Stan), one reference and condition at a time. With lapses in the data, sensitivities
+# come out too small.
+#
+#   P(left)  = pnorm(-tau - (s x + b)),   P(left or none) = pnorm(tau - (s x + b))
+#   cumulative("probit"): P(answer <= k) = pnorm(disc * (threshold_k - eta))
+#
+# Both are equal with thresholds of -1 and 1, disc = tau and eta = (s x + b) / tau. Terms:
+#   ls, lt          log s and log tau, so that both are positive and differ by factors
+#   nlf(disc ~ lt)  disc = exp(lt), since brms models the logarithm of disc
+#   exp(ls - lt)*x  s x / tau
+#   b * exp(-lt)    b / tau; b, a preference for the right side, is 0 in the mean of participants
+#   (1 |p| person)  log s and log tau of a person, correlated because they share the name p
+#   constant(-1)    holds the first threshold, and constant(2) its distance to the second one, as
+#                   their place and distance are in b and tau
+#   lkj(2)          the weak prior on that correlation that heft analyse has
+#
+# library(brms)
+# here <- compared_choices(choices$compared[1])
+# here$x <- here$right_minus_left_g / here$unit
+# here$side <- factor(here$side, c("left", "none", "right"), ordered = TRUE)
+# model <- bf(side ~ exp(ls - lt) * x + b * exp(-lt), nlf(disc ~ lt),
+#             ls + lt ~ 1 + (1 |p| person), b ~ 0 + (1 | person), nl = TRUE)
+# priors <- c(prior(constant(-1), class = "Intercept"), prior(constant(2), class = "delta"),
+#             prior(normal(1, 1.5), nlpar = "ls"), prior(normal(0, 1), nlpar = "lt"),
+#             prior(normal(0, 0.7), class = "sd", nlpar = "ls"),
+#             prior(normal(0, 0.7), class = "sd", nlpar = "lt"),
+#             prior(normal(0, 0.5), class = "sd", nlpar = "b"),
+#             prior(lkj(2), class = "cor"))
+# fit <- brm(model, here, family = cumulative("probit", threshold = "equidistant"), prior = priors,
+#            cores = 4, seed = 1, control = list(adapt_delta = 0.95))
+# summary(fit)
+# threshold_g <- qnorm(0.75) * here$unit[1] * exp(-as_draws_df(fit)$b_ls_Intercept)
+# quantile(threshold_g, c(0.5, 0.025, 0.975))  # of the median participant
 
 # --------------------------------------------------------------------------------------------------
 
@@ -333,8 +400,10 @@ if (any(!is.na(trials$staircase))) {
   jnds()
 }
 if (nrow(choices) > 0) {
-  heading("Choices with indecision, by condition and reference")
-  indecision_fits()
+  heading("Sensitivity by condition and reference: mixed indecision model")
+  mixed_fits()
+  heading("The same, all trials pooled (thresholds are too large)")
+  pooled_fits()
 }
 sink()
 write.csv(format(figures, digits = 15, trim = TRUE), "figures.csv", row.names = FALSE, quote = FALSE)
