@@ -22,7 +22,7 @@ TABLES = {"trials": "trial", "answers": "answer", "reversals": "reversal", "esti
 LEFT_OUT = {"participants": {"protocol_text", "run_options", "n_events", "n_frames", "info_digest",
                              "digest"}, "frames": {"digest"}}
 # All names that only CSV files have.
-ADDED = {"log", "participant", "person", "session_id", "response_time_s"}
+ADDED = {"log", "lab", "participant", "person", "session_id", "response_time_s"}
 TASKS = {"introduction", "sorting", "comparison"}
 
 

@@ -232,11 +232,12 @@ LoggedSessions::LoggedSessions(const std::vector<std::string>& databases,
     throw Error("--session names sessions of a single log; give one --db", ExitCode::usage);
   const std::set named(session_ids.begin(), session_ids.end());
   std::set<std::string> files;
+  const std::vector<std::string> labs = lab_names(databases);
   for (const std::string& database : databases) {
     if (!files.insert(std::filesystem::weakly_canonical(database).string()).second)
       throw Error(fmt::format("{} is given twice", database), ExitCode::usage);
-    OneLog& log =
-        logs_.emplace_back(OneLog{database, LogReader(database), {named.begin(), named.end()}});
+    OneLog& log = logs_.emplace_back(
+        OneLog{database, labs.at(logs_.size()), LogReader(database), {named.begin(), named.end()}});
     if (log.session_ids.empty()) log.session_ids = log.reader.session_ids();
     n_withdrawn_ += static_cast<int>(std::erase_if(log.session_ids, [&](std::int64_t id) {
       const SessionRow session = log.reader.session(id);
@@ -259,7 +260,10 @@ void LoggedSessions::each(const std::function<void(const SessionData&)>& use) co
     for (const std::int64_t id : log.session_ids) {
       SessionData data = read_session(log.reader, id, declared_by_text);
       std::string& participant = data.session.header.participant;
-      if (logs_.size() > 1) participant = person_name(log.name, participant);
+      if (logs_.size() > 1) {
+        participant = person_name(log.name, participant);
+        data.lab = log.lab;
+      }
       use(data);
     }
 }

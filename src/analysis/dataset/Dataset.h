@@ -78,6 +78,7 @@ struct Noted {
 
 struct SessionData {
   SessionRow session;
+  std::string lab{};  ///< see lab_names(); of a single log empty
   std::vector<Attempt> attempts;
   std::vector<EstimateRow> estimates;
   PictureCounts pictures;
@@ -146,7 +147,8 @@ class LoggedSessions {
 
   /// The logs' files, as given.
   std::string database() const;
-  /// May be called again, and gives the same. Of several logs participants have person_name().
+  /// May be called again, and gives the same. Of several logs participants have person_name(), and
+  /// each log is a lab's.
   void each(const std::function<void(const SessionData&)>& use) const;
   /// Sessions without data, because they were withdrawn.
   int n_withdrawn() const { return n_withdrawn_; }
@@ -155,7 +157,7 @@ class LoggedSessions {
 
  private:
   struct OneLog {
-    std::string name;
+    std::string name, lab;
     LogReader reader;
     std::vector<std::int64_t> session_ids;
   };

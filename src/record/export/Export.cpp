@@ -1,5 +1,8 @@
 #include "record/export/Export.h"
 
+#include <filesystem>
+#include <map>
+
 #include "base/files/Csv.h"
 #include "record/export/ExportFolder.h"
 
@@ -30,6 +33,16 @@ void write_dictionary(const ExportSource& source, const std::vector<ExportTable>
   folder.wrote("dictionary.csv", n);
 }
 }  // namespace
+
+std::vector<std::string> lab_names(const std::vector<std::string>& logs) {
+  std::vector<std::string> names;
+  for (const std::string& log : logs) names.push_back(std::filesystem::path(log).stem().string());
+  std::map<std::string, int> n;
+  for (const std::string& name : names) n[name] += 1;
+  for (std::size_t i = 0; i < logs.size(); ++i)
+    if (n[names[i]] > 1) names[i] = logs[i];
+  return names;
+}
 
 void export_csv(const ExportSource& source, ExportFolder& folder,
                 const std::function<void(double)>& progress) {

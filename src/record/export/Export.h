@@ -30,6 +30,10 @@ inline std::string person_name(const std::string& log, const std::string& partic
   return log + ": " + participant;
 }
 
+/// The lab that each log is from: the log's file name without folder and extension, or the log as
+/// given where another has that name too.
+std::vector<std::string> lab_names(const std::vector<std::string>& logs);
+
 struct ExportRequest {
   std::vector<std::string> logs;
   ExportFormat format = ExportFormat::csv;
@@ -38,8 +42,8 @@ struct ExportRequest {
   bool is_verified = true;              ///< false: every table has a column `unverified`
 };
 
-/// Exports all sessions of the logs; the column `log` names the log. `person` is the participant,
-/// for several logs person_name().
+/// Exports all sessions of the logs; the column `log` names the log, `lab` its lab. `person` is the
+/// participant, for several logs person_name().
 /// - csv: trials.csv, wide.csv, choices.csv, answers.csv, reversals.csv, estimates.csv, cubes.csv,
 ///   participants.csv, setups.csv, frames.csv if there are frames, dictionary.csv, analysis.R.
 /// - psych-ds: the same as data/description-..._data.csv, with dataset_description.json.

@@ -18,7 +18,7 @@
 namespace heft {
 
 struct ExportSource::OpenLog {
-  std::string name;
+  std::string name, lab;
   std::unique_ptr<SQLite::Database> database;
 };
 
@@ -69,7 +69,7 @@ ExportSource::ExportSource(const std::vector<std::string>& logs, std::optional<s
   for (const std::string& name : logs) {
     if (!files.insert(resolved_path(name)).second)
       throw Error(fmt::format("{} is given twice", name), ExitCode::usage);
-    OpenLog log{name, open_for_reading(name)};
+    OpenLog log{name, "", open_for_reading(name)};
     if (!holds_log(*log.database, name)) continue;
     if (key_) log.database = renumbered_copy(*log.database);
     log.database->exec("BEGIN");  // all reads see one snapshot
@@ -77,6 +77,9 @@ ExportSource::ExportSource(const std::vector<std::string>& logs, std::optional<s
     if (key_) log.name = fmt::format("log{}", logs_.size() + 1);
     logs_.push_back(std::move(log));
   }
+  std::vector<std::string> names;
+  for (const OpenLog& log : logs_) names.push_back(log.name);
+  for (std::size_t i = 0; i < logs_.size(); ++i) logs_[i].lab = lab_names(names)[i];
   for (ExportTable& table : export_tables(participants)) tables_.push_back(shown(std::move(table)));
 }
 
@@ -133,6 +136,7 @@ void ExportSource::each_row(const ExportTable& table, std::size_t log, const std
       if (key_) make_private(cells[i], column.privacy, *key_);
       if (column.name == "person" && n_logs() > 1)
         cells[i].text = person_name(logs_[log].name, cells[i].text);
+      if (column.name == "lab") cells[i].text = logs_[log].lab;
     }
     take(cells);
   }

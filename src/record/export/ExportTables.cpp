@@ -98,6 +98,9 @@ ExportColumn person() {
           "s.participant",
           Privacy::person};
 }
+ExportColumn lab() {
+  return {"lab", "", "lab: file name of the log without folder and extension", "", "''"};
+}
 ExportColumn trial_id() {
   return id("trial_id", "id of the attempt in its log");
 }
@@ -171,6 +174,7 @@ ExportTable wide_table() {
   std::vector<ExportColumn> columns{
       participant(),
       person(),
+      lab(),
       {"session", "", "id of the session in its log", "", "s.session_id"},
       {"date", "", "start time of the session, ISO 8601", "", "s.started_utc", Privacy::year},
       {"expName", "", "file name of the protocol", "", "s.protocol_name"},
@@ -206,6 +210,7 @@ ExportTable choice_table() {
   std::vector<ExportColumn> columns{session_id(),
                                     participant(),
                                     person(),
+                                    lab(),
                                     trial_id(),
                                     {"compared", "", "technique and reference, the unit of a fit",
                                      "", "r.condition || printf(' %.6g g', r.reference_g)"}};
@@ -251,33 +256,34 @@ std::vector<ExportTable> export_tables(const ParticipantColumns& participants) {
       "response_time_s", "s", "validated_s - shown_s - paused_s - lost_s", "", response_time_sql};
   return {
       table<TrialRow>("trials", "an attempt at a planned trial", of_session("trial"), "r.trial_id",
-                      {session_id(), participant(), person(), trial_id(),
+                      {session_id(), participant(), person(), lab(), trial_id(),
                        id("setup_id", "configuration; see setups.csv")},
                       {response_time}),
       wide_table(),
       choice_table(),
       table<AnswerRow>("answers", "an action of the participant", of_trial("answer"), "r.answer_id",
-                       {session_id(), participant(), person(), trial_id(),
+                       {session_id(), participant(), person(), lab(), trial_id(),
                         id("answer_id", "id in order of writing")}),
       table<ReversalRow>("reversals", "a reversal of a staircase", of_session("reversal"),
-                         "r.rowid", {session_id(), participant(), person(), trial_id()}),
+                         "r.rowid", {session_id(), participant(), person(), lab(), trial_id()}),
       table<EstimateRow>("estimates", "an estimate of a staircase by one method",
                          of_session("estimate"), "r.rowid",
-                         {session_id(), participant(), person()}),
+                         {session_id(), participant(), person(), lab()}),
       table<CubeRow>("cubes", "a cube of an attempt at a trial", of_trial("cube"),
-                     "r.trial_id, r.slot", {session_id(), participant(), person(), trial_id()}),
+                     "r.trial_id, r.slot",
+                     {session_id(), participant(), person(), lab(), trial_id()}),
       table<SessionHeader>(
           "participants", "a session",
           "(SELECT * FROM session WHERE state != 'withdrawn') r JOIN session s USING (session_id)",
-          "r.session_id", {session_id(), person()}, about_participants(participants)),
+          "r.session_id", {session_id(), person(), lab()}, about_participants(participants)),
       table<SessionConfig>(
           "setups", "a configuration", of_session("setup"), "r.setup_id",
-          {session_id(), participant(), person(),
+          {session_id(), participant(), person(), lab(),
            id("setup_id", "id of the configuration in its log"),
            id("setup_index", "number of the configuration in its session, from 1"),
            id("from_event_id", "event that put it into effect; empty: start of the session")}),
       table<FrameRow>("frames", "a displayed frame", of_session("frame"), "r.frame_id",
-                      {session_id(), participant(), person(), trial_id(),
+                      {session_id(), participant(), person(), lab(), trial_id(),
                        id("frame_id", "id in order of writing")}),
   };
 }
