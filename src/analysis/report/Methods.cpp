@@ -86,7 +86,7 @@ std::string exclusions(const Summary& summary) {
                                          "excludes participants with {}",
                                          fmt::join(rules, "; or "));
   return text + (excluded.empty() ? ", and no one was excluded."
-                                  : fmt::format("; excluded were {} ({}).",
+                                  : fmt::format("; {} excluded ({}).",
                                                 summary.flow.n_asked - summary.n_participants,
                                                 fmt::join(excluded, ", ")));
 }
@@ -225,7 +225,7 @@ std::string other_estimators(const Summary& summary, Citations& citations) {
         " The paper's JNDs are summarized by the mean of a log-normal distribution with censored "
         "values ({}), with a profile-likelihood interval.",
         citations.cite(Source::tobit));
-  if (find_estimate(all, "sorting"))
+  if (find_estimate(all, "sorting_answers"))
     text += fmt::format(
         " Percentages are means over participants; their 95 % intervals are score intervals with "
         "participants as clusters ({}), or exact where all participants are equal.",

@@ -130,7 +130,7 @@ TEST(Methods, ListWhoWasExcludedAndByWhichRule) {
   EXPECT_THAT(methods.paragraphs.at(0),
               AllOf(HasSubstr("6 people took part"), HasSubstr("1 did not finish."),
                     HasSubstr("excludes participants with an unfinished session"),
-                    HasSubstr("excluded were 1 (unfinished"),
+                    HasSubstr("1 excluded (no finished session: 1)"),
                     HasSubstr("The analysis has 5 participants.")));
 }
 
@@ -139,7 +139,7 @@ TEST(Methods, OfSeveralProtocolsHaveAParagraphEach) {
   for (SessionData& data : sessions) add_sortings(data, "C2", "correct", 1);
   const Methods methods = methods_of(summarize({"x.db", sessions}, ""));
   EXPECT_EQ(methods.paragraphs.size(), 5u);
-  EXPECT_THAT(methods.paragraphs.at(2), StartsWith("Protocol jnd.toml, 1 participant: "));
+  EXPECT_THAT(methods.paragraphs.at(2), StartsWith("Protocol jnd, 1 participant: "));
   EXPECT_THAT(methods_of(summarize({"x.db", {}}, "")).paragraphs, IsEmpty());
 }
 
