@@ -189,6 +189,7 @@ void Engine::act(const Action& action, double t_s, Changes& changes) {
 void Engine::complete(double t_s, Changes& changes) {
   open_->complete(t_s);
   changes.trial = open_->row();
+  last_differed_ = open_->answered_different();
   open_.reset();
   begin_gap(t_s);
   ++n_completed_;
@@ -213,6 +214,7 @@ void Engine::veto_answer(const std::string& reason, double t_s, Changes& changes
   TrialRow row = answered_->trials.back();
   answered_->trials.pop_back();
   answered_->vetoed = true;
+  last_differed_.reset();
   row.status = TrialStatus::voided;
   row.void_reason = std::string(answer_vetoed) + reason;
   row.outcome.reset();

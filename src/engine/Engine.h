@@ -93,6 +93,10 @@ class Engine {
     return answered_ && !answered_->vetoed ? &answered_->trials.back() : nullptr;
   }
 
+  /// Whether the last completed trial's answer was that the cubes differ; none: there is none, it
+  /// was vetoed, or its task does not ask that.
+  std::optional<bool> last_differed() const { return last_differed_; }
+
   /// Whether a trial of the block was started.
   bool has_begun(const std::string& block) const { return begun_.contains(block); }
 
@@ -153,6 +157,7 @@ class Engine {
   };
   std::optional<Answered> answered_;
 
+  std::optional<bool> last_differed_;
   int attempt_ = 1;  // of the next or open trial
   int n_voids_ = 0;  // of that trial, consecutive, since the last resume
 

@@ -50,6 +50,8 @@ class RunningAttempt {
   /// Folds an action. If the task shuffles the cubes, their contact counts start again.
   void act(const Action& action, double t_s);
   bool has_ended() const { return trial_->result().outcome.has_value(); }
+  /// Whether the answer was that the cubes differ; none: the task does not ask that.
+  std::optional<bool> answered_different() const;
 
   void complete(double t_s);
   void make_void(const std::string& reason, double t_s);

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "base/Error.h"
 #include "base/Random.h"
@@ -138,13 +139,15 @@ class SessionJudge {
   }
 
   void judge(const AttemptFold& attempt, const std::vector<FrameRow>& rows) {
-    if (rows.empty()) return leave_out(attempt, lacks_frames);
     const TrialPlan& plan = attempt.first_plan;
     const auto logged_protocol = session_.protocol_of(attempt.row);
     const Protocol& protocol = what_if_ ? *what_if_ : *logged_protocol;
     const TaskBlock& block = task_block(protocol, plan.block);
     const auto [actions, before] = logged_answer(attempt);
     const auto logged = answered(block, plan, seed(), actions);
+    const std::optional<bool> last_differed = std::exchange(last_differed_, std::nullopt);
+    if (logged && logged->detects()) last_differed_ = logged->result().chosen_slot.has_value();
+    if (rows.empty()) return leave_out(attempt, lacks_frames);
     if (!logged || !logged->n_answers()) return leave_out(attempt, is_a_number);
     const Stage stage = stage_of(protocol, plan.n_slots());
     const auto frames =
@@ -154,7 +157,8 @@ class SessionJudge {
     ScreenState screen;
     block.trial(plan, seed())->show(screen);
     JudgedTrial trial = judged_trial(plan, *logged);
-    const TrialView view{plan.trial_number, plan.attempt, plan.task, stage, screen.offer};
+    const TrialView view{plan.trial_number, plan.attempt, plan.task, stage,
+                         screen.offer,      last_differed};
     for (std::size_t i = 0; i < models_.size(); ++i) {
       const auto draws = draws_of(models_[i].in_effect(attempt.row), view, seen, block, plan);
       if (!draws) return leave_out(attempt, no_answer_of(models_[i].name()));
@@ -202,6 +206,7 @@ class SessionJudge {
   const Protocol* what_if_;
   std::vector<Model> models_;
   Judgments judgments_;
+  std::optional<bool> last_differed_;  ///< the logged answer to the trial before
 };
 
 }  // namespace

@@ -26,6 +26,8 @@
 
 namespace heft {
 
+struct ResponderParameters;
+
 /// The participant's view of a trial at its start.
 struct TrialView {
   int trial_number = 0;
@@ -33,6 +35,9 @@ struct TrialView {
   Task task;
   Stage stage;
   std::any offer = {};  ///< the task's, before any answer
+  /// Whether the last completed trial's answer was that the cubes differ; none: it has no such
+  /// answer, was vetoed, or this is the first trial.
+  std::optional<bool> last_differed = {};
 };
 
 struct HandSample {
@@ -58,14 +63,19 @@ class Responder {
   /// then stops the session instead of waiting forever.
   virtual bool has_more(double t_s) const = 0;
 
-  /// The answer to a logged trial, moved by any hand: the decision model's answer to all of these
-  /// frames, the first one if the task asks again. Does not affect the current trial.
+  /// The answer to a trial moved by any hand: the decision model's answer to all of these frames.
+  /// Does not affect the current trial.
+  /// @param wrong_slots incorrect choices so far, oldest first, if the task asks again
   /// @return none: no answer to this trial
   virtual std::optional<Answer> judge(const TrialView& trial [[maybe_unused]],
-                                      std::span<const DisplayedFrame> frames
-                                      [[maybe_unused]]) const {
+                                      std::span<const DisplayedFrame> frames [[maybe_unused]],
+                                      std::span<const int> wrong_slots
+                                      [[maybe_unused]] = {}) const {
     return std::nullopt;
   }
+
+  /// The parameters of its hand; null: the hand rests, or does not follow from parameters.
+  virtual const ResponderParameters* hand_parameters() const { return nullptr; }
 
   /// The answer to a question of a questionnaire.
   /// @param key in the log; differs each time the question is asked

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/special_functions/beta.hpp>
 #include <vector>
+
+#include "base/Random.h"
 
 namespace heft {
 
@@ -15,6 +18,8 @@ using enum ParameterPart;
 constexpr std::array rows{
     ParameterRow{everyone, "participant_spread", "1", 1, 0, 3, 0, &P::participant_spread,
                  "multiplies every spread between participants; 0 makes them all alike"},
+    ParameterRow{perception, "moved_share", "1", 0, 0, 1, 0, &P::moved_share,
+                 "share of the participants who judge by whether a cube moved; 0: none"},
     // The hand.
     ParameterRow{hand, "strokes_per_cube", "1", 2.5, 1, 10, 0.2, &P::strokes_per_cube,
                  "one push is checked by another, seldom by more when first impressions count"},
@@ -39,6 +44,11 @@ constexpr std::array rows{
                  "the effector glides just above the table, so that it does not scrape"},
     ParameterRow{hand, "reach_m", "m", 0.3, 0.05, 0.6, 0, &P::reach_m,
                  "behind a tablet the tip gets about a forearm's length past the row's near faces"},
+    ParameterRow{hand, "stop_gap_m", "m", 0, 0, 0.2, 0, &P::stop_gap_m,
+                 "a push ends where the clone is seen this far behind (exploration adapts to what "
+                 "it finds: Lederman and Klatzky 1987); 0: never"},
+    ParameterRow{hand, "stop_motion_m", "m", 0, 0, 0.2, 0, &P::stop_motion_m,
+                 "a push ends where the cube is seen to have moved this far; 0: never"},
     // The eye and its memory.
     ParameterRow{perception, "just_visible_mm", "mm", 2, 0, 20, 0.3, &P::just_visible_mm,
                  "a few pixels of a camera that films 40 cm: less looks like one contour"},
@@ -51,6 +61,11 @@ constexpr std::array rows{
                  "vision sums over about a tenth of a second, here as a first-order lag"},
     ParameterRow{perception, "memory_noise", "1", 0.08, 0, 1, 0.3, &P::memory_noise,
                  "a length kept in mind over seconds and other lengths blurs by 5 to 10 %"},
+    ParameterRow{perception, "haptic_noise_mm", "mm", 0, 0, 200, 0, &P::haptic_noise_mm,
+                 "noise of the held effector's weight, which is weighed against the seen cue by "
+                 "their variances (Ernst and Banks 2002); 0: the weight is ignored"},
+    ParameterRow{perception, "haptic_mm", "mm", 0, 0, 200, 0, &P::haptic_mm,
+                 "the cue that the held effector's weight suggests for any cube"},
     // The decision and the finger.
     ParameterRow{decision, "judgment_noise_mm", "mm", 1.5, 0, 50, 0.3, &P::judgment_noise_mm,
                  "comparing adds noise of the order of what the eye adds, even to nothing seen"},
@@ -69,13 +84,24 @@ constexpr std::array rows{
                  "deciding, and taking a hand from the effector to the screen"},
     ParameterRow{decision, "tap_interval_s", "s", 0.7, 0.4, 5, 0.2, &P::tap_interval_s,
                  "finding and tapping the next of a few large buttons"},
+    ParameterRow{decision, "criterion_drift_mm", "mm", 0, 0, 20, 0, &P::criterion_drift_mm,
+                 "standard deviation of the criterion's change from trial to trial; 0: none"},
+    ParameterRow{decision, "criterion_persistence", "1", 0, 0, 0.999, 0, &P::criterion_persistence,
+                 "share of a change of the criterion that is left one trial later"},
+    ParameterRow{
+        decision, "repetition_mm", "mm", 0, 0, 50, 0, &P::repetition_mm,
+        "the criterion is this much lower after the answer \"different\", and higher after "
+        "\"same\" (answers depend on the last one: Fruend et al. 2011); 0: none"},
     // The coin.
     ParameterRow{coin, "p", "1", 0.5, 0, 1, 0, &P::p, "probability of answering \"different\""},
+    ParameterRow{coin, "concentration", "1", 0, 0, 1000, 0, &P::concentration,
+                 "p differs between participants as Beta(p c, (1 - p) c) for concentration c; 0: "
+                 "it does not"},
 };
 
 constexpr std::string_view cue_reason =
-    "what heaviness is seen by: the clone's distance from the effector, or the cube's missing "
-    "motion";
+    "what heaviness is seen by: the clone's distance from the effector, the cube's missing motion, "
+    "the share of the hand's motion that it lacks, or whether it moved";
 
 bool has(std::span<const ParameterPart> parts, ParameterPart part) {
   return std::ranges::find(parts, part) != parts.end();
@@ -125,6 +151,29 @@ std::string set(Parameter parameter, std::span<const ParameterPart> parts, P& pa
   return set_number(parameter, *row, parameters);
 }
 
+// What a participant is, drawn once.
+void draw_kind(std::uint64_t seed, P& parameters) {
+  if (parameters.moved_share > 0) {
+    const bool is_one = RandomStream(seed, "participant's cue").coin(parameters.moved_share);
+    if (is_one) parameters.cue = Cue::moved;
+    parameters.moved_share = is_one ? 1 : 0;
+  }
+  if (parameters.concentration > 0) {
+    const double yes = parameters.p * parameters.concentration;
+    const double no = parameters.concentration - yes;
+    if (yes > 0 && no > 0)
+      parameters.p =
+          boost::math::ibeta_inv(yes, no, RandomStream(seed, "participant's p").uniform());
+    parameters.concentration = 0;
+  }
+}
+
+bool is_given(const ResponderOptions& options, std::string_view name) {
+  return std::ranges::any_of(options.parameters, [&](const Parameter& one) {
+    return one.name == name || one.name == std::string(name) + ".median";
+  });
+}
+
 }  // namespace
 
 std::span<const ParameterRow> parameter_rows() {
@@ -150,6 +199,7 @@ ResponderParameters participant_parameters(const ResponderOptions& options,
   if (const auto impossible = variation.factorize()) mistakes.push_back(*impossible);
   if (!mistakes.empty()) throw InvalidFile(std::move(mistakes));
   variation.vary(options.seed, parameters);
+  draw_kind(options.seed, parameters);
   return parameters;
 }
 
@@ -159,7 +209,8 @@ std::map<std::string, double> drawn_values(const ResponderOptions& options,
   if (parts.empty()) return values;
   const ResponderParameters drawn = participant_parameters(options, parts);
   for (const ParameterRow& row : rows)
-    if (has(parts, row.part)) values.emplace(row.name, drawn.*row.member);
+    if (has(parts, row.part) && (row.value > 0 || is_given(options, row.name)))
+      values.emplace(row.name, drawn.*row.member);
   return values;
 }
 

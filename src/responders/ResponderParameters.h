@@ -20,10 +20,14 @@ namespace heft {
 /// The visible cue to a cube's heaviness.
 /// offset: distance of the clone from the effector while it touches the cube.
 /// cube_motion: how much less the cube has moved than the hand since they touched.
-enum class Cue { offset, cube_motion };
+/// cd_ratio: the share of the hand's movement that the cube lacks, as -ln(cube's / hand's) times a
+///   usual stroke of 90 mm (control/display ratio; Samad et al. 2019).
+/// moved: nothing if the cube was seen to move, else a usual stroke.
+enum class Cue { offset, cube_motion, cd_ratio, moved };
 template <>
 struct EnumNames<Cue> {
-  static constexpr std::array<std::string_view, 2> names{"offset", "cube_motion"};
+  static constexpr std::array<std::string_view, 4> names{"offset", "cube_motion", "cd_ratio",
+                                                         "moved"};
 };
 
 /// The part of a responder that has the parameter.
@@ -36,7 +40,7 @@ inline constexpr std::array coin_parts{ParameterPart::coin};
 
 /// One participant's values. Meanings, units and defaults: see the table.
 struct ResponderParameters {
-  double participant_spread = 0;
+  double participant_spread = 0, moved_share = 0;
 
   double strokes_per_cube = 0;
   double stroke_length_m = 0, stroke_peak_speed_m_s = 0, stroke_variation = 0;
@@ -44,19 +48,22 @@ struct ResponderParameters {
   double hold_s = 0, pause_s = 0;
   double lateral_error_m = 0, yaw_error_rad = 0;
   double hover_m = 0, reach_m = 0;
+  double stop_gap_m = 0, stop_motion_m = 0;
 
   Cue cue = Cue::offset;
   double just_visible_mm = 0, localization_noise_mm = 0, length_noise = 0;
   double integration_s = 0, memory_noise = 0;
+  double haptic_mm = 0, haptic_noise_mm = 0;
 
   double judgment_noise_mm = 0, criterion_mm = 0, criterion_fraction = 0;
   double guess_probability = 0, lapse_rate = 0, correction_probability = 0;
   double think_s = 0, tap_interval_s = 0;
+  double criterion_drift_mm = 0, criterion_persistence = 0, repetition_mm = 0;
 
-  double p = 0;
+  double p = 0, concentration = 0;
 };
 
-/// A row of the table.
+/// A row of the table. Of a mechanism that is off by default the value is 0.
 struct ParameterRow {
   ParameterPart part;
   std::string_view name, unit;
@@ -105,7 +112,7 @@ class Variation {
 ResponderParameters participant_parameters(const ResponderOptions& options,
                                            std::span<const ParameterPart> parts);
 
-/// The drawn parameters of those parts, by name.
+/// The drawn parameters of those parts, by name; of mechanisms only those that the file gives.
 /// @throws InvalidFile as participant_parameters
 std::map<std::string, double> drawn_values(const ResponderOptions& options,
                                            std::span<const ParameterPart> parts);

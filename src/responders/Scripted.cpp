@@ -76,8 +76,8 @@ class Scripted : public Responder {
     return paused_ || t_s <= end_s_ + (to_do_.empty() ? 0 : waits_for_steps_s);
   }
 
-  std::optional<Answer> judge(const TrialView& trial,
-                              std::span<const DisplayedFrame>) const override {
+  std::optional<Answer> judge(const TrialView& trial, std::span<const DisplayedFrame>,
+                              std::span<const int>) const override {
     const auto actions = recording_.actions.find(trial.trial_number);
     if (actions == recording_.actions.end()) return std::nullopt;
     check(actions->second, trial);

@@ -55,12 +55,14 @@ class Simulated : public Responder {
 
   bool has_more(double t_s) const override { return !trial_->answering.gave_up(t_s); }
 
-  std::optional<Answer> judge(const TrialView& trial,
-                              std::span<const DisplayedFrame> frames) const override {
+  std::optional<Answer> judge(const TrialView& trial, std::span<const DisplayedFrame> frames,
+                              std::span<const int> wrong_slots) const override {
     Perception perception(parameters_, seed_, trial);
     for (const DisplayedFrame& frame : frames) perception.see(frame);
-    return Decision(parameters_, seed_, trial).decide(perception.percepts_mm(), {});
+    return Decision(parameters_, seed_, trial).decide(perception.percepts_mm(), wrong_slots);
   }
+
+  const ResponderParameters* hand_parameters() const override { return &parameters_; }
 
   std::optional<std::string> answer(const FormQuestion& question,
                                     const std::string& key) const override {

@@ -38,7 +38,8 @@ void AttemptRun::run(const TrialPlan& plan) {
   journal_.emit_now(TrialStarted{});
   seen_s_ = start_s_ = engine().last_s();
   parts_.responder.begin_trial({plan.trial_number, plan.attempt, plan.task,
-                                stage_of(protocol, plan.n_slots()), engine().screen().offer});
+                                stage_of(protocol, plan.n_slots()), engine().screen().offer,
+                                engine().last_differed()});
   parts_.pictures.begin_attempt({start_s_, plan.trial_number, plan.attempt});
   n_continued_ = journal_.n_continued();
   world_.emplace(protocol, plan);

@@ -27,6 +27,7 @@ struct TrialSetup {
   double paused_from_s = 0, paused_to_s = 0;
   bool takes_answers = true;  ///< false: the screen ignores every action
   double at_most_s = 300;
+  std::optional<bool> last_differed = {};
 };
 
 struct Result {
@@ -60,7 +61,8 @@ class Trial {
     screen_.screen = Screen::trial;
     screen_.task = setup.task;
     if (setup.task == "sorting") labels_on(screen_).resize(setup.masses_g.size());
-    responder.begin_trial({setup.trial_number, setup.attempt, setup.task, stage_});
+    responder.begin_trial(
+        {setup.trial_number, setup.attempt, setup.task, stage_, {}, setup.last_differed});
   }
 
   Result run() {

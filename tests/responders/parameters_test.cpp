@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "FakeTrial.h"
@@ -33,7 +34,7 @@ TEST(Parameters, MistakesAreReportedTogetherAtTheirPlaces) {
                               "\"criterion_mm\"?"));
   EXPECT_THAT(text, HasSubstr("p.toml:2:14: lapse_rate is 1.5, expected 0 to 1"));
   EXPECT_THAT(text, HasSubstr("p.toml:3:9: hold_s must be a number (s)"));
-  EXPECT_THAT(text, HasSubstr("p.toml:4:7: cue must be \"offset\" or \"cube_motion\""));
+  EXPECT_THAT(text, HasSubstr("p.toml:4:7: cue must be \"offset\", "));
   EXPECT_THAT(text, HasSubstr("p.toml:5:1: unknown parameter \"p\""));
 }
 
@@ -147,6 +148,7 @@ std::string trace(const std::vector<Parameter>& parameters) {
     setup.condition = seed % 3 ? "C2" : "C1";
     setup.task = seed % 2 ? "sorting" : "comparison";
     if (setup.task == "comparison") setup.masses_g = {100, 160};
+    setup.last_differed = seed % 4 == 1;
     const auto result = fake::run_trial(*responder, setup);
     for (const Pose& pose : result.hand)
       text += fmt::format("{} {} {} {};", pose.position_m.x(), pose.position_m.y(),
@@ -160,11 +162,23 @@ std::string trace(const std::vector<Parameter>& parameters) {
 TEST(Parameters, EveryOneOfThemChangesWhatAParticipantDoes) {
   const std::string usual = trace({});
   EXPECT_TRUE(trace({}) == usual);
-  EXPECT_TRUE(trace({{"cue", std::string("cube_motion"), {}}}) != usual);
+  for (const char* cue : {"cube_motion", "cd_ratio", "moved"})
+    EXPECT_TRUE(trace({{"cue", std::string(cue), {}}}) != usual) << cue;
+  // Two belong to a mechanism that another one switches on.
+  const std::map<std::string_view, Parameter> switches{
+      {"haptic_mm", {"haptic_noise_mm", 2.0, {}}},
+      {"criterion_persistence", {"criterion_drift_mm", 10.0, {}}}};
   for (const ParameterRow& row : parameter_rows()) {
     if (row.part == ParameterPart::coin) continue;
-    const auto with = [&](double value) { return trace({{std::string(row.name), value, {}}}); };
-    EXPECT_TRUE(with(row.least) != usual || with(row.most) != usual) << row.name;
+    const auto with = [&](double value) {
+      std::vector<Parameter> given{{std::string(row.name), value, {}}};
+      if (switches.contains(row.name)) given.push_back(switches.at(row.name));
+      return trace(given);
+    };
+    const std::string at_least = with(row.least);
+    EXPECT_TRUE(at_least != usual || with(row.most) != at_least ||
+                with(row.most / 10) != at_least || with(row.most / 100) != at_least)
+        << row.name;
   }
 }
 

@@ -10,12 +10,30 @@
 
 namespace heft {
 
+namespace {
+// An autoregressive drift of the criterion up to a trial, from one draw for each trial before, so
+// that nothing has to be remembered.
+double drift_mm(const ResponderParameters& parameters, std::uint64_t seed, int trial_number) {
+  double drift = 0;
+  for (int trial = 1; trial <= trial_number; ++trial)
+    drift = parameters.criterion_persistence * drift +
+            RandomStream(seed, "criterion drift", static_cast<std::uint64_t>(trial)).normal();
+  return parameters.criterion_drift_mm * drift;
+}
+}  // namespace
+
 Decision::Decision(const ResponderParameters& parameters, std::uint64_t seed,
                    const TrialView& trial)
     : parameters_(parameters),
       task_(trial.task),
       offer_(trial.offer),
-      stream_(trial_stream(seed, "decision", trial)) {}
+      stream_(trial_stream(seed, "decision", trial)) {
+  double& criterion_mm = parameters_.criterion_mm;
+  if (parameters.criterion_drift_mm > 0)
+    criterion_mm += drift_mm(parameters, seed, trial.trial_number);
+  if (trial.last_differed)
+    criterion_mm += *trial.last_differed ? -parameters.repetition_mm : parameters.repetition_mm;
+}
 
 Answer Decision::decide(std::span<const double> percepts_mm, std::span<const int> wrong_slots) {
   Percepts percepts{.remembered_mm = remembered_mm(percepts_mm),

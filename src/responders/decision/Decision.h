@@ -27,7 +27,7 @@ class Decision {
   std::vector<double> remembered_mm(std::span<const double> percepts_mm);
   bool differ(std::span<const double> remembered_mm) const;
 
-  ResponderParameters parameters_;
+  ResponderParameters parameters_;  ///< with the criterion of this trial
   Task task_;
   std::any offer_;
   RandomStream stream_;

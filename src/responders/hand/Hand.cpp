@@ -26,6 +26,12 @@ void HandPath::begin_at(double t_s) {
   end_s_ = std::max(end_s_, t_s);
 }
 
+void HandPath::stop_at(double t_s) {
+  start_ = at(t_s);
+  moves_.clear();
+  end_s_ = t_s;
+}
+
 void HandPath::move(const Pose& to, double peak_speed_m_s) {
   const double distance_m = (to.position_m - end().position_m).norm();
   if (distance_m == 0) return;
@@ -85,7 +91,10 @@ bool Hand::done(double t_s) const {
 }
 
 void Hand::see(const DisplayedFrame& frame) {
-  if (frame.t_s < path_.end_s()) return;
+  if (frame.t_s < path_.end_s()) {
+    if (has_seen_enough(frame)) stop(frame.t_s);
+    return;
+  }
   path_.begin_at(frame.t_s);
   // Missing cubes appear only once the hand is out of their way.
   if (frame.cubes.empty()) return go_home(frame.cubes);
@@ -151,10 +160,33 @@ bool Hand::possible(const Stroke& stroke, std::span<const Pose> cubes) const {
 void Hand::push(const Stroke& stroke, std::span<const Pose> cubes) {
   if (at_home_) path_.wait(parameters_.pause_s);
   travel_to(stroke.start, cubes);
+  pushed_ = stroke;
+  pushed_->begins_s = path_.end_s();
+  pushed_->cube_start_m = cubes[static_cast<std::size_t>(stroke.cube)].position_m;
   path_.move(stroke.end, stroke.peak_speed_m_s);
   path_.wait(parameters_.hold_s);
   at_home_ = false;
-  pushed_ = stroke;
+}
+
+// During a push: the clone far enough behind, or the cube far enough from where it was.
+bool Hand::has_seen_enough(const DisplayedFrame& frame) const {
+  const double gap_m = parameters_.stop_gap_m, motion_m = parameters_.stop_motion_m;
+  if (!pushed_ || pushed_->stopped || frame.t_s < pushed_->begins_s) return false;
+  if (!frame.tracked || frame.cubes.empty()) return false;
+  const Eigen::Vector3d& cube_m = frame.cubes[static_cast<std::size_t>(pushed_->cube)].position_m;
+  const auto apart_m = [](const Eigen::Vector3d& a_m, const Eigen::Vector3d& b_m) {
+    return (a_m - b_m).head<2>().norm();
+  };
+  return (gap_m > 0 && frame.clone &&
+          apart_m(frame.clone->position_m, frame.effector.position_m) >= gap_m) ||
+         (motion_m > 0 && apart_m(cube_m, pushed_->cube_start_m) >= motion_m);
+}
+
+void Hand::stop(double t_s) {
+  path_.stop_at(t_s);
+  path_.wait(parameters_.hold_s);
+  pushed_->end = path_.end();
+  pushed_->stopped = true;
 }
 
 // Straight back until the tip and the clone have left the cube, then up. Not further back: a cube

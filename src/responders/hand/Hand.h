@@ -36,6 +36,8 @@ class HandPath {
   /// Removes past movements; the next one starts where they ended, at t_s or later.
   void begin_at(double t_s);
   void wait(double duration_s) { end_s_ += duration_s; }
+  /// Stands still from t_s on, wherever it is then.
+  void stop_at(double t_s);
   void move(const Pose& to, double peak_speed_m_s);
 
   Pose at(double t_s) const;
@@ -69,19 +71,26 @@ class Hand {
   /// Movements planned last.
   const HandPath& path() const { return path_; }
 
- private:
   /// Effector poses at both ends of a push along +y.
   struct Stroke {
-    int cube = 0;
+    int cube = 0;  ///< from 0
     Pose start, end;
+    double begins_s = 0;
     double peak_speed_m_s = 0;
+    Eigen::Vector3d cube_start_m{0, 0, 0};
+    bool stopped = false;  ///< before its planned end
   };
+  /// The push at the end of the last planned movement; none: it goes elsewhere.
+  const std::optional<Stroke>& stroke() const { return pushed_; }
 
+ private:
   std::optional<Stroke> next_stroke(std::span<const Pose> cubes);
   std::optional<Stroke> stroke_on(int cube, std::span<const Pose> cubes);
   Stroke aimed(int cube, const Pose& at, double lateral_m, double yaw_rad, double length_m) const;
   bool possible(const Stroke& stroke, std::span<const Pose> cubes) const;
   void push(const Stroke& stroke, std::span<const Pose> cubes);
+  bool has_seen_enough(const DisplayedFrame& frame) const;
+  void stop(double t_s);
   void back_off(std::span<const Pose> cubes);
   Eigen::Vector3d half_extents_of(const Pose& cube) const;
   double near_face_m(const Pose& cube) const;
@@ -99,7 +108,7 @@ class Hand {
   HandPath path_;
   std::deque<int> to_push_;  ///< cubes, one entry per stroke
   bool at_home_ = true;
-  std::optional<Stroke> pushed_;  ///< the push at the end of the last planned movement
+  std::optional<Stroke> pushed_;
 };
 
 }  // namespace heft

@@ -44,9 +44,9 @@ class Resting : public Responder {
 
   bool has_more(double t_s) const override { return !answering_->gave_up(t_s); }
 
-  std::optional<Answer> judge(const TrialView& trial,
-                              std::span<const DisplayedFrame>) const override {
-    return make_model_(trial)({});
+  std::optional<Answer> judge(const TrialView& trial, std::span<const DisplayedFrame>,
+                              std::span<const int> wrong_slots) const override {
+    return make_model_(trial)(wrong_slots);
   }
 
   std::optional<std::string> answer(const FormQuestion& question,

@@ -4,7 +4,7 @@
 // Each frame in which the clone touches a cube gives a noisy reading of the cue, zero where it is
 // less than just visible. Readings are smoothed over the eye's integration time; the largest one of
 // an unbroken touch is a look, and the mean of a cube's looks is its percept. Without a drawn clone
-// there is no cue.
+// there is no cue. A participant who also feels the effector's weight mixes it in.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +41,14 @@ class Perception {
     Pose effector_at_start, cube_at_start;
   };
 
+  struct Look {
+    double peak_mm = 0;    ///< largest smoothed reading
+    double travel_mm = 0;  ///< of the hand since the touch began, largest
+  };
+
   void keep_touch(int cube, const DisplayedFrame& frame);
+  double heaviness_mm(const Look& look) const;
+  double with_felt_weight_mm(double seen_mm, double felt) const;
   double cue_mm(const DisplayedFrame& frame) const;
   double reading_mm(double shown_mm);
 
@@ -50,7 +57,8 @@ class Perception {
   RandomStream stream_;
   std::optional<Touch> touch_;
   std::optional<double> last_frame_s_;
-  std::vector<std::vector<double>> looks_mm_;  ///< by cube
+  std::vector<std::vector<Look>> looks_;  ///< by cube
+  std::vector<double> felt_;  ///< by cube: standard normal noise of the weight; empty: not felt
 };
 
 }  // namespace heft
