@@ -114,6 +114,7 @@ SessionParts Equipment::parts(Engine& engine, EventSink& sink) {
   (has_person(config_->config) ? parts.texts : parts.asked) =
       config_->texts.pages.empty() ? nullptr : &config_->texts;
   parts.apparatus = demonstrated_;
+  parts.has_pictures = config_->tracker->has_pictures;
   parts.left_hand = config_->config.hand == Side::left;
   return parts;
 }

@@ -7,6 +7,7 @@
 #include "base/Error.h"
 #include "session/AttemptRun.h"
 #include "session/DisplayCheck.h"
+#include "session/SurrogateAttempt.h"
 
 namespace heft {
 
@@ -182,6 +183,7 @@ void Runner::run_trial(const TrialPlan& plan) {
                          next.plan->trial_number == plan.trial_number &&
                          next.plan->attempt == plan.attempt;
   if (control_.leaving() || !still_due) return;
+  if (!parts_.has_pictures) return SurrogateAttempt(parts_, journal_).run(plan);
   AttemptRun attempt(parts_, options_, journal_, control_, screen_);
   attempt.run(plan);
   last_shown_ = attempt.shown();

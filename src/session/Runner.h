@@ -28,6 +28,7 @@ struct SessionParts {
   ResumeState before = {};   ///< of a resumed session
   bool left_hand = false;    ///< holds the effector in the demonstration
   const ScreenTexts* asked = nullptr;  ///< of questionnaires for the responder; null: none
+  bool has_pictures = true;            ///< false: attempts are SurrogateAttempts
 };
 
 enum class RunEnd {

@@ -48,6 +48,13 @@ void require_compatible_plugs(const ResolvedConfig::Parts& parts) {
                     "synthetic, or --responder human",
                     model->name),
         ExitCode::usage);
+  if (!parts.tracker->has_pictures &&
+      (!model || parts.model.entry->file == ResponderFile::folder || parts.view->has_screen))
+    throw Error(
+        fmt::format("tracker \"{}\": only a model's strokes are computed, without pictures; "
+                    "expected a model as --responder and no window, or --tracker hand",
+                    parts.tracker->name),
+        ExitCode::usage);
   if (parts.tracker->is_dragged && !parts.view->has_screen)
     throw Error(
         fmt::format("tracker \"mouse\": the effector is dragged in the window, and the view "
@@ -64,7 +71,7 @@ void require_compatible_plugs(const ResolvedConfig::Parts& parts) {
 
 void require_answerable(const ResolvedConfig::Parts& parts, const Protocol& protocol) {
   const ResponderEntry* model = tracked_model(parts);
-  require_general_simulator(parts.config.simulator, model);
+  if (parts.tracker->has_pictures) require_general_simulator(parts.config.simulator, model);
   const auto block = first_block_with_trials(protocol);
   if (!protocol.require_contact || !model || model->touches_cubes || !block) return;
   throw Error(

@@ -209,6 +209,8 @@ class Resolver {
 
   bool simulator_stays() const {
     if (config_.simulator.empty() || !config_.rate_hz) return false;
+    if (!parts_.tracker->has_pictures || !tracker_named(logged_->tracker.name).has_pictures)
+      return false;
     if (!given_.simulator) return true;
     // A session keeps the choice of `auto` from its start, even if the error table has changed.
     if (given_.simulator == automatic && !config_.simulator_reason.empty()) return true;
@@ -216,10 +218,18 @@ class Resolver {
   }
 
   void take_simulator() {
+    if (!parts_.tracker->has_pictures && given_.simulator)
+      throw Error(fmt::format("tracker \"{}\" has straight strokes alone, which it computes by "
+                              "\"{}\"; expected no --simulator, or --tracker hand",
+                              parts_.tracker->name, surrogate_simulator),
+                  ExitCode::usage);
     if (!simulator_stays()) {
       const std::string& held =
           config_.simulator.empty() ? protocol_.simulator.name : config_.simulator;
-      const SimulatorPick pick = simulator_for(given_.simulator.value_or(held), protocol_);
+      const SimulatorPick pick =
+          parts_.tracker->has_pictures
+              ? simulator_for(given_.simulator.value_or(held), protocol_)
+              : SimulatorPick{std::string(surrogate_simulator), protocol_.display_rate_hz, ""};
       config_.simulator = pick.simulator;
       config_.rate_hz = pick.rate_hz;
       config_.simulator_reason = pick.why;

@@ -125,6 +125,9 @@ bool runs_on_wall_clock(bool person, const TrackerEntry& tracker, const ViewEntr
 /// Name of the automatic choice of a simulator; the log has the name of the chosen one.
 inline constexpr std::string_view automatic = "auto";
 
+/// The simulator of a tracker without pictures, whose strokes are straight.
+inline constexpr std::string_view surrogate_simulator = "push";
+
 /// The simulator that models all movements of a person, at a rate that suffices for the fastest
 /// spring of the protocol's techniques, at least the display's. Ignores the protocol's rate.
 SimulatorPick resolve_auto(const Protocol& protocol);

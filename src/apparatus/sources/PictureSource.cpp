@@ -39,6 +39,8 @@ std::unique_ptr<PictureSource> open(const std::string& kind, const PictureParts&
 constexpr std::array table{
     TrackerEntry{"hand", "the responder's own effector pose; no pixels", false, false,
                  TrackerWhat::nothing, make_hand},
+    TrackerEntry{"surrogate", "the strokes of the responder's hand alone, for simulations: fast",
+                 false, false, TrackerWhat::nothing, make_hand, false, false},
     TrackerEntry{"synthetic",
                  "a rendered camera that films the responder's hand; synthetic:FILE.toml sets "
                  "its imperfections",

@@ -113,6 +113,8 @@ struct TrackerEntry {
   /// @throws Error (device_missing) if the camera is missing
   std::unique_ptr<PictureSource> (*make)(const PictureParts& parts);
   bool is_dragged = false;  ///< the participant drags the effector in the window
+  /// false: only the strokes of a model's hand are computed (session/SurrogateAttempt.h).
+  bool has_pictures = true;
 };
 
 std::span<const TrackerEntry> trackers();

@@ -17,7 +17,7 @@ namespace heft::cli {
 namespace {
 
 struct SimulateOptions {
-  std::string protocol, db = "heft.db";
+  std::string protocol, db = "heft.db", level = "hand";
   SessionOptions given;
   std::optional<std::uint64_t> seed;
   int participants = 13;
@@ -28,6 +28,7 @@ struct SimulateOptions {
 void simulate_participants(const SimulateOptions& options) {
   SessionOptions given = options.given;
   if (!given.responder) given.responder = Plug{"simulated"};
+  given.tracker = Plug{options.level == "camera" ? "synthetic" : options.level};
   given.protocol_file = options.protocol;
   SimulationRequest request{resolve(given, load_protocol(options.protocol, given.settings),
                                     options.seed ? *options.seed : fresh_seed())};
@@ -38,7 +39,10 @@ void simulate_participants(const SimulateOptions& options) {
   say("{}, protocol {}, responder {}, seed {}\n", counted(request.participants, "participant"),
       request.config->protocol->name, to_text(request.config->config.responder),
       request.config->seed);
-  print_simulator(request.config);
+  if (options.level == "surrogate")
+    say("surrogate: straight strokes, no pictures (results/responders has its errors)\n");
+  else
+    print_simulator(request.config);
 
   const StopOnSignal stop;
   const auto started = std::chrono::steady_clock::now();
@@ -90,6 +94,13 @@ void add_simulate(Command& app) {
   command.add_option("--db", &options->db, "the log; an existing one gets more sessions")
       .shows_default();
   command.add_seed(options->seed);
+  command
+      .add_option(
+          "--level", &options->level,
+          "surrogate: straight strokes alone, fast; hand: the whole scene; camera: also its "
+          "pictures, slow")
+      .one_of({"surrogate", "hand", "camera"})
+      .shows_default();
   command.add_option("--simulator", &options->given.simulator, "instead of the protocol's");
   command.add_flag("--frames", options->frames,
                    "store every displayed frame, too (about 10 MB per session)");
