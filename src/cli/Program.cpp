@@ -113,6 +113,7 @@ void add_commands(Command& app) {
   add_show(app);
   add_simulate(app);
   add_power(app);
+  add_fit_responder(app);
   add_replay(app);
   add_analyse(app);
   add_fit(app);

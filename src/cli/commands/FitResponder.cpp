@@ -1,0 +1,211 @@
+// heft fit-responder: the population of simulated participants behind reported figures.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "base/Error.h"
+#include "base/files/TextFile.h"
+#include "cli/Commands.h"
+#include "cli/SessionOptions.h"
+#include "cli/console/Terminal.h"
+#include "population/ResponderFit.h"
+
+namespace heft::cli {
+
+namespace {
+using nlohmann::ordered_json;
+
+struct FitResponderOptions {
+  std::string protocol, figures, save;
+  std::optional<WhoAnswers> model;
+  std::vector<FreeParameter> free;
+  std::vector<ProtocolSetting> set;
+  int people = 4000;
+  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::optional<std::uint64_t> seed;
+  bool json = false;
+};
+
+constexpr double few_effective = 50;
+
+std::string number(double value) {
+  return fmt::format("{:.3g}", value);
+}
+
+std::string interval_of(const FittedParameter& one) {
+  if (one.identified()) return fmt::format("[{}, {}]", number(*one.low), number(*one.high));
+  return fmt::format("[{}, {}]", one.low ? number(*one.low) : "...",
+                     one.high ? number(*one.high) : "...");
+}
+
+std::string beside(std::optional<double> reported, double found, std::optional<double> z) {
+  return fmt::format("{:>8} {:>8} {:>6}", reported ? fmt::format("{:.1f}", *reported) : "-",
+                     fmt::format("{:.1f}", found), z ? fmt::format("{:+.1f}", *z) : "");
+}
+
+void print_fit(const ResponderFit& fit, int people) {
+  print("{:<28} {:>9}  {:<20}\n", "parameter", "estimate", "95 % interval");
+  for (const FittedParameter& one : fit.parameters)
+    print(
+        "{:<28} {:>9}  {:<20} {}\n", one.free.name, number(one.value), interval_of(one),
+        one.identified() ? "" : fmt::format("open within {:g}..{:g}", one.free.low, one.free.high));
+  print("\n{:<26} {:>8} {:>8} {:>6}   {:>8} {:>8} {:>6}\n", "figure", "mean", "model", "z", "SD",
+        "model", "z");
+  for (const ComparedFigure& one : fit.figures)
+    print("{:<26} {}   {}  {}\n",
+          text_of(one.reported.place) + " (" + std::string(unit_of(one.reported.place.kind)) + ")",
+          beside(one.reported.mean, one.found.mean, one.z_mean),
+          beside(one.reported.sd, one.found.sd, one.z_sd),
+          !one.reported.mean    ? "predicted"
+          : one.reported.fitted ? "fitted"
+                                : "held out");
+  print("\nlog likelihood: fitted {:.2f} ({})", fit.fitted,
+        std::to_string(fit.n_fitted) + " means and SDs");
+  if (fit.n_held_out > 0)
+    print(", held out {:.2f} ({})", fit.held_out,
+          std::to_string(fit.n_held_out) + " means and SDs");
+  print("\n");
+  for (const ResponderFit::Pair& pair : fit.alike)
+    print("these figures hardly tell {} from {}: their estimates correlate by {:.2f}\n", pair.first,
+          pair.second, pair.correlation);
+  if (fit.effective < few_effective)
+    print(
+        "caution: only {:.0f} of {} simulated participants are like this population; take more "
+        "with --people, or narrower bounds\n",
+        fit.effective, people);
+}
+
+ordered_json json_of(const std::optional<double>& value) {
+  return value ? ordered_json(*value) : ordered_json();
+}
+
+std::string as_json(const ResponderFit& fit, int people, std::uint64_t seed) {
+  ordered_json root{{"people", people},
+                    {"seed", seed},
+                    {"effective", fit.effective},
+                    {"log_likelihood_fitted", fit.fitted},
+                    {"log_likelihood_held_out", fit.held_out}};
+  for (const FittedParameter& one : fit.parameters)
+    root["parameters"].push_back({{"name", one.free.name},
+                                  {"estimate", one.value},
+                                  {"low", json_of(one.low)},
+                                  {"high", json_of(one.high)},
+                                  {"bounds", {one.free.low, one.free.high}}});
+  for (const ComparedFigure& one : fit.figures)
+    root["figures"].push_back({{"figure", name_of(one.reported.place.kind)},
+                               {"reference_g", json_of(one.reported.place.reference_g)},
+                               {"condition", one.reported.place.condition},
+                               {"fitted", one.reported.fitted},
+                               {"mean", json_of(one.reported.mean)},
+                               {"model_mean", one.found.mean},
+                               {"z_mean", json_of(one.z_mean)},
+                               {"sd", json_of(one.reported.sd)},
+                               {"model_sd", one.found.sd},
+                               {"z_sd", json_of(one.z_sd)}});
+  root["alike"] = ordered_json::array();
+  for (const ResponderFit::Pair& pair : fit.alike)
+    root["alike"].push_back({pair.first, pair.second, pair.correlation});
+  return root.dump(2) + "\n";
+}
+
+// The model's file with the fitted values; what was not free stays.
+std::string model_file(const ResponderFit& fit, const ResponderOptions& given,
+                       const FitResponderOptions& options) {
+  std::string text = fmt::format("# Fitted by heft fit-responder to {}, protocol {}.\n",
+                                 options.figures, options.protocol);
+  const auto is_fitted = [&](std::string_view name) {
+    if (name.ends_with(".median")) name.remove_suffix(7);
+    return std::ranges::any_of(fit.parameters,
+                               [&](const FittedParameter& one) { return one.free.name == name; });
+  };
+  for (const Parameter& one : given.parameters) {
+    if (is_fitted(one.name)) continue;
+    if (const auto* value = std::get_if<double>(&one.value))
+      text += fmt::format("{} = {}\n", one.name, *value);
+    else
+      text += fmt::format("{} = \"{}\"\n", one.name, std::get<std::string>(one.value));
+  }
+  for (const FittedParameter& one : fit.parameters) {
+    const bool is_spread = one.free.name.find('.') != std::string::npos;
+    text += fmt::format("{}{} = {:.4g}\n", one.free.name, is_spread ? "" : ".median", one.value);
+  }
+  return text;
+}
+
+void fit_the_responder(const FitResponderOptions& options) {
+  SessionOptions given;
+  given.responder = options.model.value_or(Plug{"simulated"});
+  given.tracker = Plug{"surrogate"};
+  given.settings = options.set;
+  given.protocol_file = options.protocol;
+  const std::uint64_t seed = options.seed ? *options.seed : 1;
+  const std::vector<ReportedFigure> figures =
+      parse_figures(read_text_file(options.figures), options.figures);
+  Bank::Request request{resolve(given, load_protocol(options.protocol, options.set), seed),
+                        options.free,
+                        {},
+                        options.people,
+                        options.jobs};
+  for (const ReportedFigure& figure : figures) request.places.push_back(figure.place);
+  const StopOnSignal stop;
+  std::optional<Bank> bank;
+  {
+    ProgressBar bar("simulating people");
+    const auto progress = [&](double done) {
+      bar.update(done, fmt::format("{:.0f} of {} people", done * options.people, options.people));
+    };
+    bank = Bank::simulate(request, progress, stop.requested());
+  }
+  if (!bank) throw Error("stopped before the last simulated person", ExitCode::interrupted);
+  const ResponderFit fit = fit_responder(*bank, figures);
+  if (!options.save.empty())
+    replace_text_file(options.save, model_file(fit, request.config->model.options, options));
+  if (options.json) return fmt::print("{}", as_json(fit, options.people, seed));
+  print_fit(fit, options.people);
+  if (!options.save.empty())
+    print("model: {}; next: heft simulate {} --responder population:{}\n", options.save,
+          options.protocol, options.save);
+}
+
+}  // namespace
+
+void add_fit_responder(Command& app) {
+  const auto options = std::make_shared<FitResponderOptions>();
+  Command command = app.add_command(
+      "fit-responder", "which simulated people give a study's figures",
+      {"heft fit-responder protocols/paper.toml --figures protocols/examples/paper_figures.toml "
+       "--free criterion_mm=1..40 --free judgment_noise_mm=0.3..20",
+       "heft fit-responder protocols/paper.toml --figures mine.toml --model simulated:ratio.toml "
+       "--free criterion_mm=1..40 --free criterion_mm.spread=0.1..1 --save fitted.toml"});
+  command.add_option("PROTOCOL", &options->protocol, "a protocol file").required();
+  command
+      .add_option("--figures", &options->figures,
+                  "FILE.toml: means and SDs over participants that a study reported")
+      .required();
+  add_responder(command, options->model,
+                "NAME:FILE, the model and its fixed parameters (default: simulated)");
+  command.add_option("--free",
+                     ReadsText{[options](const std::string& text) {
+                                 options->free.push_back(read_free_parameter(text));
+                               },
+                               true},
+                     "NAME=LOW..HIGH ...: a free median, or NAME.spread, within bounds (up to 7)");
+  command.add_option("--people", &options->people, "simulated participants, spread over the bounds")
+      .shows_default()
+      .whole_number(100, 1'000'000);
+  command
+      .add_option("--jobs", &options->jobs,
+                  "threads; the result does not depend on them (default: one per core)")
+      .whole_number(1, 1024);
+  command.add_seed(options->seed, "1");
+  command.add_option("--save", &options->save, "FILE.toml: the fitted model");
+  command.add_flag("--json", options->json, "all figures as JSON on stdout");
+  add_settings(command, options->set,
+               "change a key of the protocol, such as coupling.stiffness_n_per_m=100");
+  command.does([options] { fit_the_responder(*options); });
+}
+
+}  // namespace heft::cli

@@ -1,0 +1,120 @@
+// Which populations of simulated participants give the figures that a study reports.
+//
+// Simulating every population that a search visits would take days. Instead, a bank of participants
+// is simulated once: their free parameters are spread evenly over the bounds (logarithms), the
+// others are drawn as the model's file says. A population, log-normal in the free parameters, is
+// the bank with weights: density of the population over density of the bank (importance sampling).
+// Its figures are weighted means and standard deviations, smooth in the population's parameters, so
+// that maximum likelihood and profiles take seconds, for as many studies as one likes.
+//
+// Likelihood: a reported mean of n participants is normal about the population's mean with variance
+// sd^2 / n, the logarithm of a reported standard deviation normal with variance (kurtosis - 1) /
+// 4n. Correlations between figures are not modeled. A population's own error (that of the bank) is
+// added to both.
+#pragma once
+
+#include <Eigen/Core>
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "inference/MaximumLikelihood.h"
+#include "population/Figures.h"
+
+namespace heft {
+
+/// A parameter of the population: the median of a responder's parameter, or its spread.
+struct FreeParameter {
+  std::string name;          ///< "criterion_mm" or "criterion_mm.spread"
+  double low = 0, high = 0;  ///< bounds; low above 0
+};
+
+/// @param text "NAME=LOW..HIGH"
+/// @throws Error (usage) with what was expected
+FreeParameter read_free_parameter(const std::string& text);
+
+/// Simulated participants over the bounds of the free parameters.
+class Bank {
+ public:
+  struct Request {
+    ResolvedConfig config;  ///< protocol, model, seed; the tracker is the surrogate
+    std::vector<FreeParameter> free;
+    std::vector<FigurePlace> places;
+    int people = 4000;
+    int jobs = 1;
+  };
+
+  /// @param progress called with the fraction done, from the calling thread
+  /// @return none: stopped
+  /// @throws Error (usage) if a free parameter is not the model's, or its bounds exceed the table's
+  static std::optional<Bank> simulate(const Request& request,
+                                      const std::function<void(double)>& progress,
+                                      const std::atomic<bool>& stop);
+
+  /// A figure of a population.
+  struct Moments {
+    double mean = 0, sd = 0, kurtosis = 3;
+    double effective = 0;  ///< number of equally weighted participants with the same error
+  };
+  /// @param at the free parameters, in the order of the request
+  /// @param moments one for each place; the mean is NaN where no participant has the figure
+  void moments(const Parameters& at, std::vector<Moments>& moments) const;
+
+  const std::vector<FreeParameter>& free() const { return free_; }
+  const std::vector<FigurePlace>& places() const { return places_; }
+  int people() const { return static_cast<int>(figures_.rows()); }
+
+ private:
+  struct Drawn {
+    std::string name;              ///< of a responder's parameter with a free median or spread
+    double low = 0, high = 0;      ///< of the bank, logarithms
+    int median = -1, spread = -1;  ///< index among the free parameters; -1: fixed
+    double fixed_median = 0, fixed_spread = 0;
+  };
+  void plan(const Request& request);
+
+  std::vector<FreeParameter> free_;
+  std::vector<FigurePlace> places_;
+  std::vector<Drawn> drawn_;
+  Eigen::MatrixXd logs_;     ///< participant x drawn
+  Eigen::MatrixXd figures_;  ///< participant x place; NaN: none
+};
+
+/// One fitted parameter with its 95 % profile interval within the bounds.
+struct FittedParameter {
+  FreeParameter free;
+  double value = 0;
+  std::optional<double> low, high;  ///< none: the interval reaches the bound on that side
+  bool identified() const { return low && high; }
+};
+
+/// A figure beside what the fitted population gives.
+struct ComparedFigure {
+  ReportedFigure reported;
+  Bank::Moments found;
+  std::optional<double> z_mean, z_sd;  ///< distance in standard errors; none: not reported
+  double log_likelihood = 0;           ///< of what was reported; 0: nothing
+};
+
+struct ResponderFit {
+  std::vector<FittedParameter> parameters;
+  std::vector<ComparedFigure> figures;
+  double fitted = 0, held_out = 0;   ///< log likelihoods of the figures that were fitted and not
+  int n_fitted = 0, n_held_out = 0;  ///< means and standard deviations
+  double effective = 0;  ///< smallest effective number of participants behind a fitted figure
+  /// Pairs of free parameters that trade for each other: correlation of the estimates, |r| above
+  /// .8.
+  struct Pair {
+    std::string first, second;
+    double correlation = 0;
+  };
+  std::vector<Pair> alike;
+};
+
+/// @param figures places must be those of the bank, in its order
+ResponderFit fit_responder(const Bank& bank, std::span<const ReportedFigure> figures);
+
+}  // namespace heft
