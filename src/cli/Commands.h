@@ -13,6 +13,7 @@ void add_doctor(Command& app);
 void add_export(Command& app);
 void add_fit(Command& app);
 void add_list(Command& app);
+void add_merge(Command& app);
 void add_new(Command& app);
 void add_procedure(Command& app);
 void add_replay(Command& app);

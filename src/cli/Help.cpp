@@ -134,9 +134,10 @@ std::string first_examples(const CommandDescription& command, std::size_t width)
 
 // Arguments and the first options, names of the others, and examples.
 std::string short_help_of(const CommandDescription& command, std::size_t width) {
-  const std::string summary = wrapped(command.summary, 0, width, 0);
   if (!command.commands.empty())
-    return fmt::format("{}{}\n{}", summary, command.footer, commands_of(command, width));
+    return wrapped(command.summary + " " + command.footer, 0, width, 0) +
+           commands_of(command, width);
+  const std::string summary = wrapped(command.summary, 0, width, 0);
   std::string options;
   std::vector<std::string> others;
   for (const OptionDescription& option : command.options) {

@@ -112,6 +112,7 @@ void add_commands(Command& app) {
   add_list(app);
   add_show(app);
   add_simulate(app);
+  add_merge(app);
   add_power(app);
   add_fit_responder(app);
   add_replay(app);

@@ -11,8 +11,7 @@ void add_all(heft::cli::Command& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return heft::cli::run_program(
-      {"heft", "Heft runs psychophysics experiments on perceived mass in augmented reality.",
-       "Start with: heft demo. Help on a command: heft help COMMAND", add_all},
-      argc, argv);
+  return heft::cli::run_program({"heft", "Experiments on perceived mass in augmented reality.",
+                                 "Help: heft help COMMAND", add_all},
+                                argc, argv);
 }

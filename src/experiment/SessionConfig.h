@@ -5,6 +5,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -101,6 +102,9 @@ struct SessionConfig {
   // In the event only: the protocol's file, beside which questionnaires are found, and the folder
   // for copies of the log.
   std::string protocol_file, backup;
+  // In the event of `heft simulate` only: the seed and the participants of the whole simulation.
+  std::optional<std::uint64_t> simulation_seed;
+  std::optional<int> simulation_participants;
 
   static void event_columns(auto& setup, auto& row) { row.detail(setup); }
   bool operator==(const SessionConfig&) const = default;
@@ -195,6 +199,8 @@ void visit_contents(Row& row, Visit&& visit) {
   visit("participant_parameters", row.participant_parameters);
   visit("protocol_file", row.protocol_file);
   visit("backup", row.backup);
+  visit("simulation_seed", row.simulation_seed);
+  visit("simulation_participants", row.simulation_participants);
   if (auto* model = std::get_if<Plug>(&row.responder)) visit("responder_text", model->text);
   visit("tracker_text", row.tracker.text);
   visit("camera_text", row.camera.text);

@@ -241,30 +241,31 @@ std::vector<std::string> faults_of_file(const LogReader& reader, const std::stri
   return faults;
 }
 
-namespace {
-[[noreturn]] void refuse_unverified(const std::string& db, const std::string& fault) {
-  throw Error(fmt::format("{} is not verified: {}. Inspect it with heft replay --db {}; "
-                          "--unverified prints its figures nevertheless, with a mark",
-                          db, fault, shell_quoted(db)),
-              ExitCode::diverged);
-}
-}  // namespace
-
-std::string require_verified(const std::string& db, const std::vector<std::int64_t>& session_ids,
-                             const std::function<void(double)>& progress) {
-  const LogReader reader(db);
-  if (const auto faults = faults_of_file(reader, db); !faults.empty())
-    refuse_unverified(db, faults.front());
+std::optional<std::string> fault_of_log(const LogReader& reader, const std::string& db,
+                                        const std::vector<std::int64_t>& session_ids,
+                                        const std::function<void(double)>& progress) {
+  if (const auto faults = faults_of_file(reader, db); !faults.empty()) return faults.front();
   const auto ids = session_ids.empty() ? reader.session_ids() : session_ids;
   double n_done = 0;
   for (const std::int64_t id : ids) {
     progress(n_done++ / static_cast<double>(ids.size()));
     if (const Verification found = verify_rows(reader, id); found.first)
-      refuse_unverified(db, fmt::format("session {}, at {:.3f} s: {} is {}, but its events give {}",
-                                        id, found.first->t_s, found.first->what,
-                                        found.first->logged, found.first->came_out));
+      return fmt::format("session {}, at {:.3f} s: {} is {}, but its events give {}", id,
+                         found.first->t_s, found.first->what, found.first->logged,
+                         found.first->came_out);
   }
   progress(1);
+  return std::nullopt;
+}
+
+std::string require_verified(const std::string& db, const std::vector<std::int64_t>& session_ids,
+                             const std::function<void(double)>& progress) {
+  const LogReader reader(db);
+  if (const auto fault = fault_of_log(reader, db, session_ids, progress))
+    throw Error(fmt::format("{} is not verified: {}. Inspect it with heft replay --db {}; "
+                            "--unverified prints its figures nevertheless, with a mark",
+                            db, *fault, shell_quoted(db)),
+                ExitCode::diverged);
   return reader.head();
 }
 

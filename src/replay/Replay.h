@@ -50,6 +50,12 @@ std::optional<std::string> fault_of_chain(const LogReader& reader);
 /// @return a message for each fault
 std::vector<std::string> faults_of_file(const LogReader& reader, const std::string& db);
 
+/// The first fault of a log and its sessions, in words. Frames are not simulated.
+/// @param session_ids empty: all  @param progress called with the fraction of sessions, 0...1
+std::optional<std::string> fault_of_log(const LogReader& reader, const std::string& db,
+                                        const std::vector<std::int64_t>& session_ids,
+                                        const std::function<void(double)>& progress);
+
 /// Verifies sessions without simulating frames, one at a time, before their figures are printed.
 /// @param session_ids empty: all
 /// @return the log's head; empty for a log without sealed sessions

@@ -47,7 +47,7 @@ void refuse_repetition(const SessionRequest& request) {
 }
 
 // The `session` row of a request that starts now.
-SessionHeader header_of(const SessionRequest& request, const SessionConfig& setup) {
+SessionHeader header_with(const SessionRequest& request, const SessionConfig& setup) {
   SessionHeader header;
   header.participant = request.participant;
   header.protocol_name = request.config->protocol->name;
@@ -59,7 +59,7 @@ SessionHeader header_of(const SessionRequest& request, const SessionConfig& setu
   header.run_options = to_json(setup);
   header.purpose = has_person(setup) ? request.purpose : Purpose::simulated;
   header.responder = to_text(setup.responder);
-  header.started_utc = utc_now();
+  header.started_utc = request.started_utc.empty() ? utc_now() : request.started_utc;
   header.participant_info = request.participant_info;
   return header;
 }
@@ -170,7 +170,7 @@ SessionResult start_session(const SessionRequest& request, const RunnerOptions& 
   Engine engine(request.config->protocol, request.config->seed);
   const Event event{0, setup};
   const RecordedEvent first{event, engine.apply(event)};
-  SessionLog log = SessionLog::start(request.db, header_of(request, setup), first);
+  SessionLog log = SessionLog::start(request.db, header_with(request, setup), first);
   if (runner.begun) *runner.begun = log.session_id();
   std::optional<AnnouncingSink> announcing;
   EventSink& sink = heard_by_others(announcing, log, runner, request.participant);
@@ -228,10 +228,14 @@ void abort_session(const LoggedSession& session) {
   sealed(reopened.log);
 }
 
+SessionHeader header_of(const SessionRequest& request) {
+  return header_with(request, Equipment(request.config).logged_config());
+}
+
 RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner) {
   Equipment equipment(request.config);
   const SessionConfig setup = equipment.logged_config();
-  RecordedSession recorded(header_of(request, setup));
+  RecordedSession recorded(header_with(request, setup));
   Engine engine(request.config->protocol, request.config->seed);
   log_config(engine, recorded, setup);
   run_with(equipment, engine, recorded, runner, 0);

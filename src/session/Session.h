@@ -20,7 +20,8 @@ struct SessionRequest {
   Purpose purpose = Purpose::main;  ///< of a person's session
   /// Known facts about the participant: their place in a study.
   std::map<std::string, std::string> participant_info = {};
-  bool again = false;  ///< another session of a participant who finished this protocol
+  bool again = false;            ///< another session of a participant who finished this protocol
+  std::string started_utc = {};  ///< empty: now
 };
 
 /// @throws Error if the log's path is a device, a pipe or a socket: opening one could wait forever
@@ -57,6 +58,9 @@ SessionResult resume_session(const LoggedSession& session, const ResolvedConfig&
 /// Ends an unfinished session for good (state "aborted"), for participants who do not return.
 /// Answers are kept; an open attempt becomes void.
 void abort_session(const LoggedSession& session);
+
+/// The `session` row that compute_session() would record.
+SessionHeader header_of(const SessionRequest& request);
 
 /// A simulated session that is kept in memory.
 RecordedSession compute_session(const SessionRequest& request, const RunnerOptions& runner);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <condition_variable>
 #include <exception>
 #include <limits>
@@ -12,7 +11,6 @@
 #include <thread>
 
 #include "base/Error.h"
-#include "base/Random.h"
 #include "record/reader/LogReader.h"
 #include "record/writer/SessionLog.h"
 
@@ -20,8 +18,8 @@ namespace heft {
 
 namespace {
 
-// Distributes session numbers to workers and returns their results in order. Workers that are far
-// ahead wait, so that memory stays constant.
+// Distributes sessions, numbered from 1, to workers and returns their results in order. Workers
+// that are far ahead wait, so that memory stays constant.
 class InOrder {
  public:
   InOrder(int n, int ahead) : n_(n), ahead_(ahead) {}
@@ -70,18 +68,15 @@ class InOrder {
   bool closed_ = false;
 };
 
-SessionRequest session_of(const SimulationRequest& request, int number) {
-  RandomStream stream(request.config->seed, "participant", static_cast<std::uint64_t>(number));
-  return {request.config.with_seed(stream.bits() >> 1), simulated_participant(number), request.db};
-}
+// Simulated sessions have no date, so that equal simulations give equal logs.
+constexpr auto no_date = "1970-01-01T00:00:00.000Z";
 
-// The number in a simulated participant's id; 0 for other ids.
-int number_in_id(const std::string& participant) {
-  const auto digits = participant.find_first_of("0123456789");
-  int n = 0;
-  if (digits != std::string::npos)
-    std::from_chars(participant.data() + digits, participant.data() + participant.size(), n);
-  return n > 0 && participant == simulated_participant(n) ? n : 0;
+// @param simulation its configuration
+SessionRequest session_of(const ResolvedConfig& simulation, int number) {
+  SessionRequest session{simulation.with_seed(session_seed(simulation->seed, number)),
+                         simulated_participant(number)};
+  session.started_utc = no_date;
+  return session;
 }
 
 // Requires the file's lock, so that no other program takes the number.
@@ -96,26 +91,44 @@ int first_free_number(const SimulationRequest& request) {
   return highest + 1;
 }
 
-}  // namespace
+// Participants of one call, and how many of them the log already has.
+struct Plan {
+  ResolvedConfig simulation;
+  ParticipantNumbers numbers;
+  int n_there = 0;
+};
 
-std::string simulated_participant(int n) {
-  return fmt::format("sim-{:04}", n);
+Plan plan_of(const SimulationRequest& request) {
+  if (!request.shard) {
+    const int first = first_free_number(request);
+    return {request.config.of_simulation(first - 1 + request.participants),
+            {first, 1, request.participants},
+            first - 1};
+  }
+  const ResolvedConfig simulation = request.config.of_simulation(request.participants);
+  const ParticipantNumbers all = numbers_of(*request.shard, request.participants);
+  const SimulationKey key = simulation_key(header_of(session_of(simulation, all.first)));
+  const int n = n_stored(LogReader(request.db), request.db, key, all);
+  return {simulation, all.after(n), n};
 }
+
+}  // namespace
 
 int simulate(const SimulationRequest& request, const std::function<void(int)>& progress,
              const std::atomic<bool>& stop) {
   refuse_special_file(request.db);
   SessionArchive archive(request.db);  // reports a bad file before hours of work
-  const int first = first_free_number(request);
-  request.numbered(first);
-  InOrder sessions(request.participants, 2 * request.jobs);
+  const Plan plan = plan_of(request);
+  request.begins(plan.numbers, plan.n_there);
+  InOrder sessions(plan.numbers.count, 2 * request.jobs);
   RunnerOptions runner;
   runner.keep_frames = request.keep_frames;
   runner.stop = &stop;
   const auto work = [&] {
     try {
-      for (int number = sessions.take(); number != 0; number = sessions.take())
-        sessions.put(number, compute_session(session_of(request, first - 1 + number), runner));
+      for (int n = sessions.take(); n != 0; n = sessions.take())
+        sessions.put(n,
+                     compute_session(session_of(plan.simulation, plan.numbers.at(n - 1)), runner));
     } catch (...) {
       sessions.fail(std::current_exception());
     }
@@ -129,7 +142,7 @@ int simulate(const SimulationRequest& request, const std::function<void(int)>& p
   const CloseAtEnd close_at_end{sessions};
   for (int i = 0; i < request.jobs; ++i) workers.emplace_back(work);
   int stored = 0;
-  while (stored < request.participants && !stop) {
+  while (stored < plan.numbers.count && !stop) {
     const RecordedSession session = sessions.give(stored + 1);
     if (stop) break;  // may be incomplete
     archive.store(session);

@@ -228,8 +228,9 @@ class Mentioned(Parsed):
 
     def test_the_readme_lists_every_command(self):
         listed = re.findall(r"`(\w+)`", " ".join(re.findall(r"^\| (`.*?) \|", text_of("README.md"), re.M)))
-        commands = self.run_heft("--help").stdout.partition("\nCommands")[2]
-        for command in re.findall(r"^  ([a-z]+)\s", commands, re.M):
+        commands = re.findall(r"^  ([a-z]+)\s", self.run_heft("--help").stdout, re.M)
+        self.assertGreater(len(commands), 15)
+        for command in commands:
             self.assertIn(command, listed)
 
 

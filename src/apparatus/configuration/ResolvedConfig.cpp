@@ -59,6 +59,13 @@ ResolvedConfig ResolvedConfig::with_seed(std::uint64_t seed) const {
   return other;
 }
 
+ResolvedConfig ResolvedConfig::of_simulation(int participants) const {
+  ResolvedConfig other = *this;
+  other.parts_.config.simulation_seed = parts_.seed;
+  other.parts_.config.simulation_participants = participants;
+  return other;
+}
+
 SessionConfig with_devices(SessionConfig config, const DeviceFacts& devices) {
   constexpr double same_rate = 0.01;  // 29.97 equals 30
   config.source_rate_hz = devices.source_rate_hz;

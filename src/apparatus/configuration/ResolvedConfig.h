@@ -89,6 +89,10 @@ class ResolvedConfig {
   /// The same for another session, with another simulated participant.
   ResolvedConfig with_seed(std::uint64_t seed) const;
 
+  /// The same with the simulation that its sessions will belong to: this seed, so many
+  /// participants.
+  ResolvedConfig of_simulation(int participants) const;
+
  private:
   explicit ResolvedConfig(Parts parts);
   friend class Resolver;

@@ -1,6 +1,7 @@
 // heft simulate: many sessions of a protocol with a simulated participant.
 #include <fmt/format.h>
 
+#include <charconv>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -20,12 +21,38 @@ struct SimulateOptions {
   std::string protocol, db = "heft.db", level = "hand";
   SessionOptions given;
   std::optional<std::uint64_t> seed;
+  std::optional<Shard> shard;
   int participants = 13;
   int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   bool frames = false;
 };
 
+// "2/10"
+Shard shard_from(const std::string& text) {
+  const char* const end = text.data() + text.size();
+  Shard shard;
+  const auto [slash, no_number] = std::from_chars(text.data(), end, shard.number);
+  const bool has_slash = no_number == std::errc() && slash != end && *slash == '/';
+  const auto [last, no_count] = std::from_chars(slash + (has_slash ? 1 : 0), end, shard.of);
+  if (!has_slash || no_count != std::errc() || last != end || shard.number < 1 ||
+      shard.number > shard.of)
+    throw Error(fmt::format("--shard {}: expected I/N with I from 1 to N, such as 1/10", text),
+                ExitCode::usage);
+  return shard;
+}
+
+void print_start(const SimulationRequest& request, const ParticipantNumbers& numbers, int n_there) {
+  if (request.shard)
+    say("shard {}/{}: {}, {} of them in {} already\n", request.shard->number, request.shard->of,
+        counted(numbers.count + n_there, "participant"), n_there, request.db);
+  else if (n_there > 0)
+    say("{} already holds participants up to {} of this protocol; continuing with {}\n", request.db,
+        simulated_participant(n_there), simulated_participant(numbers.first));
+}
+
 void simulate_participants(const SimulateOptions& options) {
+  if (options.shard && !options.seed)
+    throw Error("--shard needs --seed N, the same for all shards", ExitCode::usage);
   SessionOptions given = options.given;
   if (!given.responder) given.responder = Plug{"simulated"};
   given.tracker = Plug{options.level == "camera" ? "synthetic" : options.level};
@@ -36,6 +63,7 @@ void simulate_participants(const SimulateOptions& options) {
   request.participants = options.participants;
   request.jobs = options.jobs;
   request.keep_frames = options.frames;
+  request.shard = options.shard;
   say("{}, protocol {}, responder {}, seed {}\n", counted(request.participants, "participant"),
       request.config->protocol->name, to_text(request.config->config.responder),
       request.config->seed);
@@ -46,30 +74,33 @@ void simulate_participants(const SimulateOptions& options) {
 
   const StopOnSignal stop;
   const auto started = std::chrono::steady_clock::now();
-  int stored = 0;
+  int stored = 0, n_wanted = 0;
   {
     ProgressBar bar("simulating");
-    request.numbered = [&](int first) {
-      if (first > 1)
-        say("{} already holds participants up to {} of this protocol; continuing with {}\n",
-            request.db, simulated_participant(first - 1), simulated_participant(first));
+    request.begins = [&](const ParticipantNumbers& numbers, int n_there) {
+      print_start(request, numbers, n_there);
+      n_wanted = numbers.count;
       bar.update(0, "");
     };
     stored = simulate(
         request,
         [&](int n) {
-          bar.update(static_cast<double>(n) / request.participants,
-                     fmt::format("{} of {} participants", n, request.participants));
+          bar.update(static_cast<double>(n) / n_wanted,
+                     fmt::format("{} of {} participants", n, n_wanted));
         },
         stop.requested());
   }
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
   say("{} in {:.1f} s: {:.1f} participants/min with {}\n", counted(stored, "participant"),
       elapsed.count(), 60 * stored / elapsed.count(), counted(request.jobs, "thread"));
-  if (stored < request.participants)
-    throw Error(fmt::format("stopped; {} in {}", counted(stored, "stored participant"), request.db),
+  if (stored < n_wanted)
+    throw Error(fmt::format("stopped; {} in {}{}", counted(stored, "stored participant"),
+                            request.db, options.shard ? "; the same command continues" : ""),
                 ExitCode::interrupted);
-  say("results: heft analyse --db {}\n", shell_quoted(request.db));
+  if (options.shard)
+    say("when all shards are complete: heft merge all.db SHARD.db...\n");
+  else
+    say("results: heft analyse --db {}\n", shell_quoted(request.db));
 }
 
 }  // namespace
@@ -80,11 +111,11 @@ void add_simulate(Command& app) {
       "simulate", "run many sessions with a simulated responder",
       {"heft simulate protocols/paper.toml --responder simulated --participants 13 --db sim.db",
        "heft simulate protocols/jnd.toml --responder coin --participants 100 --jobs 2 --seed 1",
-       "heft simulate protocols/jnd.toml --responder simulated:mine.toml --participants 50"});
+       "heft simulate protocols/jnd.toml --participants 1000 --seed 1 --shard 3/10 --db 3.db"});
   command.add_option("PROTOCOL", &options->protocol, "a protocol file").required();
   add_responder(command, options->given.responder,
                 "NAME or NAME:FILE (heft doctor --list; default: simulated)");
-  command.add_option("--participants", &options->participants, "number of participants")
+  command.add_option("--participants", &options->participants, "how many, in all shards together")
       .whole_number(1, 1'000'000)
       .shows_default();
   command
@@ -101,6 +132,11 @@ void add_simulate(Command& app) {
           "pictures, slow")
       .one_of({"surrogate", "hand", "camera"})
       .shows_default();
+  command.add_option(
+      "--shard",
+      ReadsText{[options](const std::string& text) { options->shard = shard_from(text); }},
+      "I/N: only participants I, I + N, I + 2 N...; a log that has the first of them gets the rest "
+      "(then: heft merge)");
   command.add_option("--simulator", &options->given.simulator, "instead of the protocol's");
   command.add_flag("--frames", options->frames,
                    "store every displayed frame, too (about 10 MB per session)");

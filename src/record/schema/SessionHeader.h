@@ -41,7 +41,8 @@ void visit_columns(Row& row, Visit&& visit) {
         row.heft_version);
   visit(LogColumn{"build", "", "compiler and machine of that program's build"}, row.build);
   visit(LogColumn{"run_options", "", "initial configuration, as JSON"}, row.run_options);
-  visit(LogColumn{"started_utc", "", "start time in UTC, ISO 8601"}, row.started_utc);
+  visit(LogColumn{"started_utc", "", "start time in UTC, ISO 8601; 1970 if by heft simulate"},
+        row.started_utc);
   visit(LogColumn{"purpose", "", "purpose of the session"}, row.purpose);
   visit(LogColumn{"responder", "", "initial responder; see setup"}, row.responder);
   visit(LogColumn{"log_version", "", "version of the log in which the session was started", ">= 1"},
