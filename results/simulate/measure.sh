@@ -16,9 +16,9 @@ for protocol in quick sorting jnd paper recommended; do
     n=26
     command="./heft simulate protocols/$protocol.toml --participants $n --jobs $jobs --seed 1 --db $protocol.db"
     said=$(./heft simulate "protocols/$protocol.toml" --participants $n --jobs $jobs --seed 1 \
-      --db "$folder/$protocol-$jobs.db" 2>&1 | grep 'participants a minute')
+      --db "$folder/$protocol-$jobs.db" 2>&1 | grep 'participants/min')
     wall=$(sed -E 's/.* in ([0-9.]+) s.*/\1/' <<<"$said")
-    speed=$(sed -E 's/.*: ([0-9.]+) participants a minute.*/\1/' <<<"$said")
+    speed=$(sed -E 's/.*: ([0-9.]+) participants/min.*/\1/' <<<"$said")
     ((jobs == 1)) && single=$speed
     ratio=$(awk "BEGIN { printf \"%.2f\", $speed / $single }")
     echo "$protocol,$jobs,$n,$wall,$speed,$ratio,$commit,$command" >>"$here/speed.csv"
