@@ -111,10 +111,12 @@ std::string commands_in_a_row(const CommandDescription& command) {
   return fmt::format("{}", fmt::join(names, " "));
 }
 
+// Without the last one, `completion`, which the footer names.
 std::string commands_of(const CommandDescription& command, std::size_t width) {
   std::string text;
   for (const CommandDescription& inner : command.commands)
-    text += line_of("  " + last_word(inner.name), inner.summary, width, command_column);
+    if (last_word(inner.name) != "completion")
+      text += line_of("  " + last_word(inner.name), inner.summary, width, command_column);
   return text;
 }
 

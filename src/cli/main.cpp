@@ -12,6 +12,6 @@ void add_all(heft::cli::Command& app) {
 
 int main(int argc, char** argv) {
   return heft::cli::run_program({"heft", "Experiments on perceived mass in augmented reality.",
-                                 "Help: heft help COMMAND", add_all},
+                                 "Also: heft help COMMAND, heft completion", add_all},
                                 argc, argv);
 }

@@ -205,7 +205,7 @@ void Bank::moments(const Parameters& at, std::vector<Moments>& moments) const {
       first += weights[i] * column[i];
     }
     Moments& of = moments[f];
-    of.mean = first / sum;  // NaN where nobody has the figure
+    of.mean = first / sum;  // NaN where no one has the figure
     double second = 0, fourth = 0;
     for (Eigen::Index i = 0; i < column.size(); ++i) {
       if (std::isnan(column[i])) continue;

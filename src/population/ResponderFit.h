@@ -84,7 +84,7 @@ class Bank {
 };
 
 /// One fitted parameter with its 95 % profile interval within the bounds.
-struct FittedParameter {
+struct FreeEstimate {
   FreeParameter free;
   double value = 0;
   std::optional<double> low, high;  ///< none: the interval reaches the bound on that side
@@ -100,7 +100,7 @@ struct ComparedFigure {
 };
 
 struct ResponderFit {
-  std::vector<FittedParameter> parameters;
+  std::vector<FreeEstimate> parameters;
   std::vector<ComparedFigure> figures;
   double fitted = 0, held_out = 0;   ///< log likelihoods of the figures that were fitted and not
   int n_fitted = 0, n_held_out = 0;  ///< means and standard deviations

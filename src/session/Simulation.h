@@ -9,7 +9,7 @@
 #include <string>
 
 #include "session/Session.h"
-#include "session/Shards.h"
+#include "session/shards/Shards.h"
 
 namespace heft {
 

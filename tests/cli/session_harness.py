@@ -36,6 +36,12 @@ select trial_number, trial_t_s, state_hash
 from frame join trial using (trial_id) where status = 'completed' order by frame_id"""
 
 
+def rows_of(db):
+    """All rows of all tables, as SQL. Two files with the same rows may differ in how pages are laid out."""
+    with sqlite3.connect(db) as connection:
+        return list(connection.iterdump())
+
+
 def query(db, sql):
     connection = sqlite3.connect(f"file:{db}?mode=ro", uri=True)
     try:

@@ -35,7 +35,7 @@ std::string number(double value) {
   return fmt::format("{:.3g}", value);
 }
 
-std::string interval_of(const FittedParameter& one) {
+std::string interval_of(const FreeEstimate& one) {
   if (one.identified()) return fmt::format("[{}, {}]", number(*one.low), number(*one.high));
   return fmt::format("[{}, {}]", one.low ? number(*one.low) : "...",
                      one.high ? number(*one.high) : "...");
@@ -48,7 +48,7 @@ std::string beside(std::optional<double> reported, double found, std::optional<d
 
 void print_fit(const ResponderFit& fit, int people) {
   print("{:<28} {:>9}  {:<20}\n", "parameter", "estimate", "95 % interval");
-  for (const FittedParameter& one : fit.parameters)
+  for (const FreeEstimate& one : fit.parameters)
     print(
         "{:<28} {:>9}  {:<20} {}\n", one.free.name, number(one.value), interval_of(one),
         one.identified() ? "" : fmt::format("open within {:g}..{:g}", one.free.low, one.free.high));
@@ -69,8 +69,8 @@ void print_fit(const ResponderFit& fit, int people) {
           std::to_string(fit.n_held_out) + " means and SDs");
   print("\n");
   for (const ResponderFit::Pair& pair : fit.alike)
-    print("these figures hardly tell {} from {}: their estimates correlate by {:.2f}\n", pair.first,
-          pair.second, pair.correlation);
+    print("these figures hardly separate {} and {}: their estimates correlate by {:.2f}\n",
+          pair.first, pair.second, pair.correlation);
   if (fit.effective < few_effective)
     print(
         "caution: only {:.0f} of {} simulated participants are like this population; take more "
@@ -88,7 +88,7 @@ std::string as_json(const ResponderFit& fit, int people, std::uint64_t seed) {
                     {"effective", fit.effective},
                     {"log_likelihood_fitted", fit.fitted},
                     {"log_likelihood_held_out", fit.held_out}};
-  for (const FittedParameter& one : fit.parameters)
+  for (const FreeEstimate& one : fit.parameters)
     root["parameters"].push_back({{"name", one.free.name},
                                   {"estimate", one.value},
                                   {"low", json_of(one.low)},
@@ -119,7 +119,7 @@ std::string model_file(const ResponderFit& fit, const ResponderOptions& given,
   const auto is_fitted = [&](std::string_view name) {
     if (name.ends_with(".median")) name.remove_suffix(7);
     return std::ranges::any_of(fit.parameters,
-                               [&](const FittedParameter& one) { return one.free.name == name; });
+                               [&](const FreeEstimate& one) { return one.free.name == name; });
   };
   for (const Parameter& one : given.parameters) {
     if (is_fitted(one.name)) continue;
@@ -128,7 +128,7 @@ std::string model_file(const ResponderFit& fit, const ResponderOptions& given,
     else
       text += fmt::format("{} = \"{}\"\n", one.name, std::get<std::string>(one.value));
   }
-  for (const FittedParameter& one : fit.parameters) {
+  for (const FreeEstimate& one : fit.parameters) {
     const bool is_spread = one.free.name.find('.') != std::string::npos;
     text += fmt::format("{}{} = {:.4g}\n", one.free.name, is_spread ? "" : ".median", one.value);
   }

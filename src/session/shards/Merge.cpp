@@ -17,7 +17,7 @@
 #include "record/writer/SessionLog.h"
 #include "replay/Replay.h"
 #include "session/Session.h"
-#include "session/Shards.h"
+#include "session/shards/Shards.h"
 
 namespace heft {
 

@@ -1,4 +1,4 @@
-#include "session/Shards.h"
+#include "session/shards/Shards.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,129 @@
+// Populations fitted to figures: known ones are found again, and what the figures do not say stays
+// open.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "SourceFolder.h"
+#include "base/Random.h"
+#include "inference/Statistics.h"
+#include "population/ResponderFit.h"
+
+namespace heft {
+namespace {
+using ::testing::HasSubstr;
+
+ResolvedConfig jnd_by_surrogate() {
+  SessionOptions given;
+  given.responder = Plug{"simulated"};
+  given.tracker = Plug{"surrogate"};
+  return resolve(given, load_protocol(source_folder() + "/protocols/jnd.toml", {}), 3);
+}
+
+const std::vector<FigurePlace> places{{FigureKind::jnd, 200.0, ""},
+                                      {FigureKind::wrong_choices, {}, ""},
+                                      {FigureKind::stroke_depth, {}, ""}};
+
+Bank bank_of(std::vector<FreeParameter> free, int people, int jobs = 2) {
+  const std::atomic<bool> stop = false;
+  return *Bank::simulate(
+      {jnd_by_surrogate(), std::move(free), places, people, jobs}, [](double) {}, stop);
+}
+
+// The figures of a study of people with these parameters; others vary as they do.
+std::vector<ReportedFigure> study_of(const std::vector<Parameter>& parameters, int n) {
+  const ResolvedConfig config = jnd_by_surrogate();
+  std::vector<std::vector<double>> values(places.size());
+  for (int i = 0; i < n; ++i) {
+    const std::uint64_t seed = RandomStream(5, "person", static_cast<std::uint64_t>(i)).bits() >> 1;
+    const auto person = config->model.entry->make({seed, parameters, ""});
+    const auto figures = figures_of_one(config, *person, seed, places);
+    for (std::size_t f = 0; f < places.size(); ++f)
+      if (figures[f]) values[f].push_back(*figures[f]);
+  }
+  std::vector<ReportedFigure> study;
+  for (std::size_t f = 0; f < places.size(); ++f)
+    study.push_back({places[f], mean(values[f]), sample_sd(values[f]), n, true});
+  return study;
+}
+
+TEST(ResponderFit, FindsAKnownPopulation) {
+  const Bank bank = bank_of({{"criterion_mm", 1, 40}, {"judgment_noise_mm", 0.3, 15}}, 1200);
+  const auto study = study_of({{"criterion_mm", 12.0, {}}, {"judgment_noise_mm", 4.0, {}}}, 60);
+  const ResponderFit fit = fit_responder(bank, study);
+  ASSERT_EQ(fit.parameters.size(), 2u);
+  ASSERT_TRUE(fit.parameters[0].identified());
+  EXPECT_LT(*fit.parameters[0].low, 12);
+  EXPECT_GT(*fit.parameters[0].high, 12);
+  EXPECT_NEAR(std::log(fit.parameters[0].value / 12), 0, 0.35);
+  EXPECT_NEAR(std::log(fit.parameters[1].value / 4), 0, 0.7);
+  for (const ComparedFigure& figure : fit.figures) EXPECT_LT(std::abs(*figure.z_mean), 3);
+  EXPECT_EQ(fit.n_fitted, 6);
+}
+
+TEST(ResponderFit, HeldOutFiguresDoNotMoveItAndWhatIsNotSaidStaysOpen) {
+  const Bank bank = bank_of({{"criterion_mm", 1, 40}, {"think_s", 0.5, 3}}, 400);
+  auto study = study_of({{"criterion_mm", 12.0, {}}}, 20);
+  study[1].fitted = study[2].fitted = false;
+  const double before = fit_responder(bank, study).parameters[0].value;
+  *study[2].mean += 30;
+  const ResponderFit fit = fit_responder(bank, study);
+  EXPECT_EQ(fit.parameters[0].value, before);
+  EXPECT_GT(std::abs(*fit.figures[2].z_mean), 3);
+  EXPECT_EQ(fit.n_fitted, 2);
+  EXPECT_EQ(fit.n_held_out, 4);
+  EXPECT_FALSE(fit.parameters[1].identified()) << "no figure depends on the time for thinking";
+}
+
+TEST(Bank, DoesNotDependOnThreads) {
+  const Bank one = bank_of({{"criterion_mm", 2, 20}}, 40, 1),
+             two = bank_of({{"criterion_mm", 2, 20}}, 40, 3);
+  Parameters at(1);
+  at[0] = 6;
+  std::vector<Bank::Moments> first, second;
+  one.moments(at, first);
+  two.moments(at, second);
+  for (std::size_t f = 0; f < places.size(); ++f) EXPECT_EQ(first[f].mean, second[f].mean);
+}
+
+std::string refusal_of(const std::vector<FreeParameter>& free) {
+  try {
+    bank_of(free, 10);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(FreeParameters, MistakesSayWhatWasExpected) {
+  for (const char* text : {"criterion_mm", "criterion_mm=5", "criterion_mm=5..2",
+                           "criterion_mm=0..2", "criterion_mm=1..x", "=..", "criterion_mm..=1"})
+    EXPECT_THROW(read_free_parameter(text), Error) << text;
+  const FreeParameter free = read_free_parameter("criterion_mm.spread=0.1..1.5");
+  EXPECT_EQ(free.name, "criterion_mm.spread");
+  EXPECT_EQ(free.low, 0.1);
+  EXPECT_EQ(free.high, 1.5);
+  EXPECT_THAT(refusal_of({{"criterion", 1, 2}}), HasSubstr("no such parameter"));
+  EXPECT_THAT(refusal_of({{"criterion_mm", 1, 2}, {"criterion_mm", 1, 2}}), HasSubstr("twice"));
+  EXPECT_THAT(refusal_of({{"criterion_mm", 1, 200}}), HasSubstr("within 0 to 100"));
+  EXPECT_THAT(refusal_of({{"stop_gap_m.spread", 0.1, 1}}), HasSubstr("median of stop_gap_m is 0"));
+}
+
+TEST(ReportedFigures, MistakesAreReportedAtTheirPlaces) {
+  try {
+    parse_figures(
+        "[[figure]]\nfigure = \"jnd\"\nmean = 3\n[[figure]]\nfigure = \"corect\"\n"
+        "[[figure]]\nfigure = \"correct\"\nsd = 2\n",
+        "f.toml");
+    FAIL();
+  } catch (const InvalidFile& invalid) {
+    EXPECT_THAT(invalid.what(), HasSubstr("f.toml:2"));
+    EXPECT_THAT(invalid.what(), HasSubstr("needs its reference_g"));
+    EXPECT_THAT(invalid.what(), HasSubstr("f.toml:5"));
+    EXPECT_THAT(invalid.what(), HasSubstr("an sd needs its mean"));
+  }
+}
+
+}  // namespace
+}  // namespace heft
