@@ -29,7 +29,8 @@ struct FitResponderOptions {
   bool json = false;
 };
 
-constexpr double few_effective = 50;
+// The bank's error must be small beside that of the reported figures.
+constexpr double enough_per_person = 5;
 
 std::string number(double value) {
   return fmt::format("{:.3g}", value);
@@ -71,7 +72,9 @@ void print_fit(const ResponderFit& fit, int people) {
   for (const ResponderFit::Pair& pair : fit.alike)
     print("these figures hardly separate {} and {}: their estimates correlate by {:.2f}\n",
           pair.first, pair.second, pair.correlation);
-  if (fit.effective < few_effective)
+  int n_largest = 0;
+  for (const ComparedFigure& one : fit.figures) n_largest = std::max(n_largest, one.reported.n);
+  if (fit.effective < enough_per_person * n_largest)
     print(
         "caution: only {:.0f} of {} simulated participants are like this population; take more "
         "with --people, or narrower bounds\n",
