@@ -111,12 +111,14 @@ std::string commands_in_a_row(const CommandDescription& command) {
   return fmt::format("{}", fmt::join(names, " "));
 }
 
-// Without the last one, `completion`, which the footer names.
+// One line each, but for `completion`, which the summary names.
 std::string commands_of(const CommandDescription& command, std::size_t width) {
   std::string text;
-  for (const CommandDescription& inner : command.commands)
-    if (last_word(inner.name) != "completion")
-      text += line_of("  " + last_word(inner.name), inner.summary, width, command_column);
+  for (const CommandDescription& inner : command.commands) {
+    const std::string left = "  " + last_word(inner.name);
+    if (left == "  completion") continue;
+    text += left + wrapped(inner.summary, command_column, width, left.size());
+  }
   return text;
 }
 

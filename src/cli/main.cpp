@@ -11,7 +11,7 @@ void add_all(heft::cli::Command& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return heft::cli::run_program({"heft", "Experiments on perceived mass in augmented reality.",
+  return heft::cli::run_program({"heft", "Experiments on perceived mass in AR.",
                                  "Also: heft help COMMAND, heft completion", add_all},
                                 argc, argv);
 }

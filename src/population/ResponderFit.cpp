@@ -1,10 +1,13 @@
 #include "population/ResponderFit.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "base/Error.h"
 #include "base/Random.h"
 
 namespace heft {
@@ -129,12 +132,22 @@ std::vector<ResponderFit::Pair> pairs_alike(const Bank& bank, const Curvature& h
   return pairs;
 }
 
+void require_figures(const Bank& bank, std::span<const ReportedFigure> figures) {
+  for (std::size_t f = 0; f < figures.size(); ++f)
+    if (figures[f].fitted && figures[f].mean && !bank.has(f))
+      throw Error(fmt::format("no simulated participant has the figure \"{}\"; expected a protocol "
+                              "with such trials, or fitted = false",
+                              text_of(figures[f].place)),
+                  ExitCode::usage);
+}
+
 }  // namespace
 
 ResponderFit fit_responder(const Bank& bank, std::span<const ReportedFigure> figures) {
   std::vector<ParameterBounds> bounds;
   for (const FreeParameter& free : bank.free())
     bounds.push_back({std::log(free.low), std::log(free.high)});
+  require_figures(bank, figures);
   FiguresLikelihood likelihood(bank, figures);
   const LogLikelihood function = [&](const Parameters& at, Derivatives* derivatives) {
     return likelihood(at, derivatives);

@@ -65,6 +65,10 @@ class Bank {
 
   const std::vector<FreeParameter>& free() const { return free_; }
   const std::vector<FigurePlace>& places() const { return places_; }
+  /// Whether any participant has the figure of that place.
+  bool has(std::size_t place) const {
+    return !figures_.col(static_cast<Eigen::Index>(place)).array().isNaN().all();
+  }
   int people() const { return static_cast<int>(figures_.rows()); }
 
  private:
@@ -115,6 +119,7 @@ struct ResponderFit {
 };
 
 /// @param figures places must be those of the bank, in its order
+/// @throws Error (usage) naming a fitted figure that no participant of the bank has
 ResponderFit fit_responder(const Bank& bank, std::span<const ReportedFigure> figures);
 
 }  // namespace heft

@@ -178,8 +178,9 @@ class Commands(Parsed):
                 if language == "sql":
                     self.query(block)
         self.run_python("".join(block for language, block in blocks(text) if language == "python"))
-        if shutil.which("Rscript"):
-            self.run_command(["Rscript", "-e", "".join(block for language, block in blocks(text) if language == "r")])
+        in_r = "".join(block for language, block in blocks(text) if language == "r")
+        if in_r and shutil.which("Rscript"):
+            self.run_r(in_r)
 
     def query(self, sql):
         """Rows are expected, as a query without any shows nothing."""
@@ -192,6 +193,12 @@ class Commands(Parsed):
         modules = re.findall(r"^(?:import|from) (\w+)", code, re.M)
         if all(importlib.util.find_spec(module) for module in modules):
             self.run_command(["python3", "-c", code])
+
+    def run_r(self, code):
+        packages = set(re.findall(r"\b(\w+)::", code)) | set(re.findall(r"library\((\w+)\)", code))
+        load = "; ".join(f"loadNamespace('{package}')" for package in packages)
+        if not load or subprocess.run(["Rscript", "-e", load], capture_output=True).returncode == 0:
+            self.run_command(["Rscript", "-e", code])
 
     def run_line(self, line):
         words = shlex.split(line)
