@@ -101,14 +101,14 @@ TEST(ResponderFit, HeldOutFiguresDoNotMoveItAndWhatIsNotSaidStaysOpen) {
 
 TEST(ResponderFit, AFigureThatTheProtocolCannotGiveIsNamed) {
   const std::atomic<bool> stop = false;
-  const std::vector<FigurePlace> other{{FigureKind::jnd, 15.0, ""}};
+  const std::vector<FigurePlace> other{{FigureKind::jnd, 33.0, ""}};
   const Bank bank = *Bank::simulate(
       {jnd_by_surrogate(), {{"criterion_mm", 2, 20}}, other, 4, 1}, [](double) {}, stop);
   try {
     fit_responder(bank, std::vector<ReportedFigure>{{other[0], 10.0, {}, 5, true}});
     FAIL();
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("has the figure \"jnd at 15 g\""));
+    EXPECT_THAT(error.what(), HasSubstr("has the figure \"jnd at 33 g\""));
   }
 }
 
