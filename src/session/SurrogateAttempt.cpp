@@ -26,8 +26,12 @@ void SurrogateAttempt::run(const TrialPlan& plan) {
   journal_.emit_now(TrialStarted{});
   start_s_ = engine().last_s();
   now_s_ = 0;
-  const TrialView view{plan.trial_number, plan.attempt, plan.task,
-                       stage_of(parts_.protocol, plan.n_slots()), engine().screen().offer, engine().last_differed()};
+  const TrialView view{plan.trial_number,
+                       plan.attempt,
+                       plan.task,
+                       stage_of(parts_.protocol, plan.n_slots()),
+                       engine().screen().offer,
+                       engine().last_differed()};
   stage_ = view.stage;
   arrange(plan);
   log(now_s_, CubesShown{});
