@@ -1,21 +1,25 @@
-// Work on many independent items, shared among the processors.
+// Work on many independent items, shared among threads.
 #pragma once
 
 #include <algorithm>
+#include <condition_variable>
 #include <cstddef>
+#include <exception>
+#include <functional>
 #include <future>
+#include <mutex>
 #include <thread>
 #include <vector>
 
 namespace heft {
 
 /// Calls work(first, last) for consecutive ranges that make up 0...n, each in its own thread, and
-/// waits for all. As many ranges as there are processors, or fewer of at least `least` items; one
-/// range runs in the caller's thread. What one throws is thrown again.
+/// waits for all. As many ranges as there are processors, or fewer of at least `at_least` items;
+/// one range runs in the caller's thread. What one throws is thrown again.
 template <typename Work>
-void in_parallel(std::size_t n, std::size_t least, const Work& work) {
+void in_parallel(std::size_t n, std::size_t at_least, const Work& work) {
   const std::size_t n_processors = std::max(1u, std::thread::hardware_concurrency());
-  const std::size_t n_ranges = std::clamp<std::size_t>(n / least, 1, n_processors);
+  const std::size_t n_ranges = std::clamp<std::size_t>(n / at_least, 1, n_processors);
   std::vector<std::future<void>> others;  // these wait where they are destroyed
   for (std::size_t i = 1; i < n_ranges; ++i)
     others.push_back(std::async(
@@ -23,6 +27,49 @@ void in_parallel(std::size_t n, std::size_t least, const Work& work) {
         [&work, first = n * i / n_ranges, last = n * (i + 1) / n_ranges] { work(first, last); }));
   work(std::size_t{0}, n / n_ranges);
   for (std::future<void>& other : others) other.get();
+}
+
+/// Calls work(i) for i = 0...n-1 on that many threads, as they become free, until one returns
+/// false: stopped. What one throws is thrown again when the others have ended.
+/// @param progress called with the fraction done, from the calling thread
+/// @return whether all were done
+inline bool run_jobs(int n, int n_threads, const std::function<bool(int)>& work,
+                     const std::function<void(double)>& progress) {
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::exception_ptr error;
+  int next = 0, n_done = 0;
+  bool stopped = false;
+  const auto run = [&] {
+    for (std::unique_lock lock(mutex); !error && !stopped && next < n;) {
+      const int i = next++;
+      lock.unlock();
+      bool done = false;
+      std::exception_ptr thrown;
+      try {
+        done = work(i);
+      } catch (...) {
+        thrown = std::current_exception();
+      }
+      lock.lock();
+      if (thrown && !error) error = thrown;
+      stopped = stopped || !done;
+      n_done += done ? 1 : 0;
+      changed.notify_all();
+    }
+  };
+  {
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < n_threads; ++i) threads.emplace_back(run);
+    std::unique_lock lock(mutex);  // released before the threads are waited for
+    for (int seen = -1; n_done < n && !stopped;) {
+      if (seen != n_done) progress(static_cast<double>(n_done) / n);
+      seen = n_done;
+      changed.wait(lock);
+    }
+  }
+  if (error) std::rethrow_exception(error);
+  return !stopped;
 }
 
 }  // namespace heft

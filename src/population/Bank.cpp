@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <mutex>
-#include <thread>
 
 #include "base/Error.h"
+#include "base/Parallel.h"
 #include "base/Random.h"
 #include "population/ResponderFit.h"
 #include "responders/ResponderParameters.h"
@@ -17,7 +15,6 @@
 namespace heft {
 
 namespace {
-constexpr std::string_view spread_ending = ".spread";
 constexpr double least_spread = 0.05;  // narrower populations have too few of the bank's people
 constexpr double reach = 2.5;          // the bank covers so many spreads beyond a median's bounds
 
@@ -30,8 +27,7 @@ std::string parameter_of(const std::string& name) {
 }
 
 const ParameterRow& row_named(const std::string& name, std::span<const ParameterPart> parts) {
-  for (const ParameterRow& row : parameter_rows())
-    if (row.name == name && std::ranges::find(parts, row.part) != parts.end()) return row;
+  if (const ParameterRow* row = find_row(name, parts)) return *row;
   throw Error(fmt::format("--free {}: the model has no such parameter; heft doctor --responder "
                           "simulated lists them",
                           name),
@@ -40,7 +36,7 @@ const ParameterRow& row_named(const std::string& name, std::span<const Parameter
 
 std::optional<double> given_value(const ResponderOptions& options, const std::string& name) {
   for (const Parameter& one : options.parameters)
-    if (one.name == name || one.name == name + ".median")
+    if (without_median(one.name) == name)
       if (const auto* number = std::get_if<double>(&one.value)) return *number;
   return std::nullopt;
 }
@@ -135,9 +131,6 @@ std::optional<Bank> Bank::simulate(const Request& request,
   bank.figures_.setConstant(request.people, n_places, std::numeric_limits<double>::quiet_NaN());
   const ResolvedModel& model = request.config->model;
 
-  std::atomic<int> next = 0, n_done = 0;
-  std::exception_ptr error;
-  std::mutex mutex;
   const auto simulate_one = [&](int i) {
     ResponderOptions options = model.options;
     options.seed =
@@ -147,7 +140,7 @@ std::optional<Bank> Bank::simulate(const Request& request,
       const double u = halton(i + 1, primes[static_cast<std::size_t>(k)]);
       bank.logs_(i, k) = drawn.low + u * (drawn.high - drawn.low);
       std::erase_if(options.parameters, [&](const Parameter& one) {
-        return parameter_of(one.name) == drawn.name || one.name == drawn.name + ".median";
+        return without_median(parameter_of(one.name)) == drawn.name;
       });
       options.parameters.push_back({drawn.name, std::exp(bank.logs_(i, k)), {}});
       options.parameters.push_back({drawn.name + ".spread", 0.0, {}});
@@ -157,28 +150,11 @@ std::optional<Bank> Bank::simulate(const Request& request,
     for (Eigen::Index f = 0; f < n_places; ++f)
       if (const auto value = figures[static_cast<std::size_t>(f)]) bank.figures_(i, f) = *value;
   };
-  const auto work = [&] {
-    for (int i = next++; i < request.people && !stop; i = next++) {
-      try {
-        simulate_one(i);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!error) error = std::current_exception();
-        next = request.people;
-      }
-      ++n_done;
-    }
+  const auto work = [&](int i) {
+    if (!stop) simulate_one(i);
+    return !stop;
   };
-  {
-    std::vector<std::jthread> threads;
-    for (int i = 0; i < request.jobs; ++i) threads.emplace_back(work);
-    while (n_done < request.people && next < request.people) {
-      progress(static_cast<double>(n_done) / request.people);
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
-  }
-  if (error) std::rethrow_exception(error);
-  if (stop) return std::nullopt;
+  if (!run_jobs(request.people, request.jobs, work, progress)) return std::nullopt;
   return bank;
 }
 

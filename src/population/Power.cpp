@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <condition_variable>
-#include <exception>
 #include <filesystem>
 #include <map>
-#include <mutex>
 #include <numeric>
 #include <set>
-#include <thread>
 #include <tuple>
 
+#include "base/Parallel.h"
 #include "base/Random.h"
 #include "base/math/Quantiles.h"
 #include "session/Simulation.h"
@@ -77,67 +74,6 @@ std::vector<StudyFindings> run_study(const PowerRequest& request, int study,
   }
   return findings;
 }
-
-// Distributes studies over threads and keeps their findings in order.
-class Studies {
- public:
-  Studies(const PowerRequest& request, const std::vector<int>& sizes, const std::atomic<bool>& stop)
-      : request_(request),
-        sizes_(sizes),
-        stop_(stop),
-        found_(static_cast<std::size_t>(request.studies)) {}
-
-  // @return whether all were run
-  bool run(const std::function<void(double)>& progress) {
-    std::vector<std::jthread> threads;
-    for (int i = 0; i < request_.jobs; ++i) threads.emplace_back([this] { work(); });
-    std::unique_lock lock(mutex_);
-    for (int seen = -1; n_done_ < request_.studies && !error_ && !stopped_;) {
-      if (seen != n_done_) progress(static_cast<double>(n_done_) / request_.studies);
-      seen = n_done_;
-      changed_.wait(lock);
-    }
-    lock.unlock();
-    threads.clear();
-    if (error_) std::rethrow_exception(error_);
-    return !stopped_;
-  }
-
-  const std::vector<std::vector<StudyFindings>>& found() const { return found_; }
-
- private:
-  void work() {
-    for (;;) {
-      int study = 0;
-      {
-        const std::lock_guard lock(mutex_);
-        if (error_ || stopped_ || next_ == request_.studies) return;
-        study = next_++;
-      }
-      try {
-        auto findings = run_study(request_, study, sizes_, stop_);
-        const std::lock_guard lock(mutex_);
-        stopped_ = stopped_ || findings.empty();
-        found_[static_cast<std::size_t>(study)] = std::move(findings);
-        ++n_done_;
-      } catch (...) {
-        const std::lock_guard lock(mutex_);
-        if (!error_) error_ = std::current_exception();
-      }
-      changed_.notify_all();
-    }
-  }
-
-  const PowerRequest& request_;
-  const std::vector<int>& sizes_;
-  const std::atomic<bool>& stop_;
-  std::vector<std::vector<StudyFindings>> found_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::exception_ptr error_;
-  int next_ = 0, n_done_ = 0;
-  bool stopped_ = false;
-};
 
 using Findings = std::vector<const StudyFindings*>;
 
@@ -225,12 +161,17 @@ std::optional<Power> power_of(const PowerRequest& request,
                               const std::atomic<bool>& stop) {
   const std::set<int> distinct(request.participants.begin(), request.participants.end());
   const std::vector<int> sizes(distinct.begin(), distinct.end());
-  Studies studies(request, sizes, stop);
-  if (!studies.run(progress)) return std::nullopt;
+  std::vector<std::vector<StudyFindings>> studies(static_cast<std::size_t>(request.studies));
+  const auto run = [&](int study) {
+    auto& findings = studies[static_cast<std::size_t>(study)];
+    findings = run_study(request, study, sizes, stop);
+    return !findings.empty();
+  };
+  if (!run_jobs(request.studies, request.jobs, run, progress)) return std::nullopt;
   Power power{request.studies, {}};
   for (std::size_t size = 0; size < sizes.size(); ++size) {
     Findings of_size;
-    for (const auto& study : studies.found()) of_size.push_back(&study[size]);
+    for (const auto& study : studies) of_size.push_back(&study[size]);
     power.sizes.push_back({sizes[size], hypotheses_of(of_size), estimates_of(of_size)});
   }
   return power;

@@ -141,14 +141,11 @@ std::string set_number(const Parameter& parameter, const ParameterRow& row, P& p
   return {};
 }
 
-std::string set(Parameter parameter, std::span<const ParameterPart> parts, P& parameters) {
-  constexpr std::string_view median = ".median";
-  if (parameter.name.ends_with(median))
-    parameter.name.resize(parameter.name.size() - median.size());
-  if (parameter.name == "cue" && has(parts, perception)) return set_cue(parameter, parameters);
-  const auto row = std::ranges::find(rows, parameter.name, &ParameterRow::name);
-  if (row == rows.end() || !has(parts, row->part)) return unknown(parameter.name, parts);
-  return set_number(parameter, *row, parameters);
+std::string set(const Parameter& parameter, std::span<const ParameterPart> parts, P& parameters) {
+  const std::string_view name = without_median(parameter.name);
+  if (name == "cue" && has(parts, perception)) return set_cue(parameter, parameters);
+  const ParameterRow* row = find_row(name, parts);
+  return row ? set_number(parameter, *row, parameters) : unknown(std::string(name), parts);
 }
 
 // What a participant is, drawn once.
@@ -169,15 +166,25 @@ void draw_kind(std::uint64_t seed, P& parameters) {
 }
 
 bool is_given(const ResponderOptions& options, std::string_view name) {
-  return std::ranges::any_of(options.parameters, [&](const Parameter& one) {
-    return one.name == name || one.name == std::string(name) + ".median";
-  });
+  return std::ranges::any_of(
+      options.parameters, [&](const Parameter& one) { return without_median(one.name) == name; });
 }
 
 }  // namespace
 
 std::span<const ParameterRow> parameter_rows() {
   return rows;
+}
+
+const ParameterRow* find_row(std::string_view name, std::span<const ParameterPart> parts) {
+  const auto row = std::ranges::find(rows, name, &ParameterRow::name);
+  return row != rows.end() && has(parts, row->part) ? &*row : nullptr;
+}
+
+std::string_view without_median(std::string_view name) {
+  constexpr std::string_view ending = ".median";
+  if (name.ends_with(ending)) name.remove_suffix(ending.size());
+  return name;
 }
 
 ResponderParameters default_parameters() {

@@ -76,6 +76,15 @@ struct ParameterRow {
 /// All numeric parameters; the cue, a name, is not in the table.
 std::span<const ParameterRow> parameter_rows();
 
+/// @return null if these parts have no such parameter
+const ParameterRow* find_row(std::string_view name, std::span<const ParameterPart> parts);
+
+/// Ending of the name of a parameter's spread in a model's file.
+inline constexpr std::string_view spread_ending = ".spread";
+
+/// A file may call a parameter's median NAME.median: NAME. Other names stay as they are.
+std::string_view without_median(std::string_view name);
+
 /// Defaults of all parts: an average participant.
 ResponderParameters default_parameters();
 

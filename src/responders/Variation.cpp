@@ -10,14 +10,13 @@
 namespace heft {
 
 namespace {
-constexpr std::string_view spread_ending = ".spread", correlation_start = "correlation.";
+constexpr std::string_view correlation_start = "correlation.";
 constexpr double most_spread = 3;
 
 std::optional<std::size_t> row_of(std::string_view name, std::span<const ParameterPart> parts) {
-  const auto rows = parameter_rows();
-  const auto row = std::ranges::find(rows, name, &ParameterRow::name);
-  if (row == rows.end() || std::ranges::find(parts, row->part) == parts.end()) return std::nullopt;
-  return static_cast<std::size_t>(row - rows.begin());
+  const ParameterRow* row = find_row(name, parts);
+  if (!row) return std::nullopt;
+  return static_cast<std::size_t>(row - parameter_rows().data());
 }
 
 std::string unknown(std::string_view name, std::span<const ParameterPart> parts) {

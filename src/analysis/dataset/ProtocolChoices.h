@@ -53,8 +53,8 @@ class ChoicesFold {
     std::optional<Protocol> protocol;  // none: the text is none
     std::string name, sha256;
     bool is_changed = false;  // by --set
-    RunAs run_as;
-    std::set<std::string> participants, conditions;
+    RunAs run_as = {};
+    std::set<std::string> participants = {}, conditions = {};
   };
   std::vector<Ran> ran_;                       // in the order of sessions
   std::map<std::string, std::size_t> places_;  // by what makes it one protocol

@@ -147,7 +147,8 @@ std::string apparatus(const RanProtocol& ran, Citations& citations) {
     try {
       const Technique technique =
           technique_named(condition, protocol.techniques, protocol.coupling);
-      text += " " + std::visit(LawInWords{condition, citations}, technique.law);
+      text += ' ';
+      text += std::visit(LawInWords{condition, citations}, technique.law);
     } catch (const std::out_of_range&) {  // of a task that names conditions otherwise
     }
   }
