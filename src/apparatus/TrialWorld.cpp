@@ -17,6 +17,12 @@ int slot_of(std::size_t cube) {
 }
 }  // namespace
 
+bool is_out(const Layout& layout, const Eigen::Vector3d& center_m) {
+  const Eigen::Vector2d reach_m = layout.area_m / 2;
+  return std::abs(center_m.x()) > reach_m.x() || std::abs(center_m.y()) > reach_m.y() ||
+         center_m.z() < 0;
+}
+
 TrialWorld::TrialWorld(const Protocol& protocol, const TrialPlan& plan)
     : protocol_(protocol), stage_(stage_of(protocol, plan.n_slots())) {
   rearrange(plan);
@@ -150,13 +156,6 @@ bool TrialWorld::go_back_together() const {
     any_touched = any_touched || contacts_[i].since_s;
   }
   return any_out && !any_touched;
-}
-
-bool TrialWorld::is_out(std::size_t cube) const {
-  const Eigen::Vector3d& center_m = drive_->state().cubes[cube].pose.position_m;
-  const Eigen::Vector2d reach_m = protocol_.layout.area_m / 2;
-  return std::abs(center_m.x()) > reach_m.x() || std::abs(center_m.y()) > reach_m.y() ||
-         center_m.z() < 0;
 }
 
 bool TrialWorld::place_is_free(std::size_t cube) const {

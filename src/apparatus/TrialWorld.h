@@ -16,6 +16,9 @@
 
 namespace heft {
 
+/// Whether a cube's center is outside the working area, or below the table.
+bool is_out(const Layout& layout, const Eigen::Vector3d& center_m);
+
 /// One displayed frame and its events.
 struct ShownFrame {
   DisplayedFrame frame;
@@ -56,7 +59,9 @@ class TrialWorld {
   void note_contacts(const TargetSample& sample, ShownFrame& shown);
   void return_cubes(double t_s, ShownFrame& shown);
   bool go_back_together() const;
-  bool is_out(std::size_t cube) const;
+  bool is_out(std::size_t cube) const {
+    return heft::is_out(protocol_.layout, drive_->state().cubes[cube].pose.position_m);
+  }
   bool place_is_free(std::size_t cube) const;
   void end_contact(std::size_t cube, double end_s, double now_s, std::vector<Event>& events);
 

@@ -164,11 +164,6 @@ void RunningAttempt::rearrange() {
   cubes_shown_ = false;
 }
 
-std::optional<bool> RunningAttempt::answered_different() const {
-  if (!trial_->detects()) return std::nullopt;
-  return trial_->result().chosen_slot.has_value();
-}
-
 void RunningAttempt::complete(double t_s) {
   row_.status = TrialStatus::completed;
   row_.ended_s = t_s;

@@ -50,8 +50,7 @@ class RunningAttempt {
   /// Folds an action. If the task shuffles the cubes, their contact counts start again.
   void act(const Action& action, double t_s);
   bool has_ended() const { return trial_->result().outcome.has_value(); }
-  /// Whether the answer was that the cubes differ; none: the task does not ask that.
-  std::optional<bool> answered_different() const;
+  std::optional<bool> answered_different() const { return trial_->answered_different(); }
 
   void complete(double t_s);
   void make_void(const std::string& reason, double t_s);

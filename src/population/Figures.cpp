@@ -7,6 +7,8 @@
 #include "apparatus/SessionClock.h"
 #include "apparatus/sources/PictureSource.h"
 #include "engine/Engine.h"
+#include "inference/Proportion.h"
+#include "inference/Statistics.h"
 #include "protocol/toml/TableReader.h"
 #include "record/stream/EventSink.h"
 #include "session/Runner.h"
@@ -16,14 +18,9 @@ namespace heft {
 
 namespace {
 
-// Hits among trials.
-struct Share {
-  int n = 0, n_hits = 0;
-  void add(bool hit) { ++n, n_hits += hit ? 1 : 0; }
-  std::optional<double> percent() const {
-    return n == 0 ? std::nullopt : std::optional(100.0 * n_hits / n);
-  }
-};
+std::optional<double> percent_of(const Tally& tally) {
+  return tally.n_trials == 0 ? std::nullopt : std::optional(tally.percent());
+}
 
 // Keeps what figures need of a session's events.
 class FigureSink final : public EventSink {
@@ -50,9 +47,9 @@ class FigureSink final : public EventSink {
       case FigureKind::jnd:
         return mean_jnd_g(place.reference_g.value_or(0));
       case FigureKind::false_alarms:
-        return false_alarms_.percent();
+        return percent_of(false_alarms_);
       case FigureKind::wrong_choices:
-        return wrong_choices_.percent();
+        return percent_of(wrong_choices_);
       case FigureKind::stroke_depth:
         return n_touches_ == 0 ? std::nullopt : std::optional(depth_mm_ / n_touches_);
       case FigureKind::correct:
@@ -60,14 +57,14 @@ class FigureSink final : public EventSink {
       case FigureKind::dont_know:
         break;
     }
-    Share sorted;
+    Tally sorted;
     for (const auto& [condition, outcomes] : sortings_)
       if (place.condition.empty() || place.condition == condition)
         for (const auto& [outcome, n] : outcomes) {
-          sorted.n += n;
+          sorted.n_trials += n;
           if (outcome == name_of(place.kind)) sorted.n_hits += n;
         }
-    return sorted.percent();
+    return percent_of(sorted);
   }
 
  private:
@@ -83,16 +80,13 @@ class FigureSink final : public EventSink {
 
   std::optional<double> mean_jnd_g(double reference_g) const {
     const auto found = jnds_g_.find(reference_g);
-    if (found == jnds_g_.end()) return std::nullopt;
-    double sum_g = 0;
-    for (const double jnd_g : found->second) sum_g += jnd_g;
-    return sum_g / static_cast<double>(found->second.size());
+    return found == jnds_g_.end() ? std::nullopt : mean(found->second);
   }
 
   std::map<std::string, std::map<std::string, int>> sortings_;  // condition, outcome
   std::map<std::string, double> reference_of_;                  // staircase
   std::map<double, std::vector<double>> jnds_g_;                // reference
-  Share false_alarms_, wrong_choices_;
+  Tally false_alarms_, wrong_choices_;
   double depth_mm_ = 0;
   int n_touches_ = 0;
 };

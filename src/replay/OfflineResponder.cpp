@@ -146,7 +146,7 @@ class SessionJudge {
     const auto [actions, before] = logged_answer(attempt);
     const auto logged = answered(block, plan, seed(), actions);
     const std::optional<bool> last_differed = std::exchange(last_differed_, std::nullopt);
-    if (logged && logged->detects()) last_differed_ = logged->result().chosen_slot.has_value();
+    if (logged) last_differed_ = logged->answered_different();
     if (rows.empty()) return leave_out(attempt, lacks_frames);
     if (!logged || !logged->n_answers()) return leave_out(attempt, is_a_number);
     const Stage stage = stage_of(protocol, plan.n_slots());

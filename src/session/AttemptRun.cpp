@@ -29,6 +29,12 @@ FrameRow row_of(const Picture& picture, double start_s) {
 
 }  // namespace
 
+TrialView trial_view(const Protocol& protocol, const Engine& engine, const TrialPlan& plan) {
+  return {
+      plan.trial_number,     plan.attempt,          plan.task, stage_of(protocol, plan.n_slots()),
+      engine.screen().offer, engine.last_differed()};
+}
+
 AttemptRun::AttemptRun(const SessionParts& parts, const RunnerOptions& options, Journal& journal,
                        SessionControl& control, ParticipantScreen& screen)
     : parts_(parts), options_(options), journal_(journal), control_(control), screen_(screen) {}
@@ -37,9 +43,7 @@ void AttemptRun::run(const TrialPlan& plan) {
   const Protocol& protocol = parts_.protocol;
   journal_.emit_now(TrialStarted{});
   seen_s_ = start_s_ = engine().last_s();
-  parts_.responder.begin_trial({plan.trial_number, plan.attempt, plan.task,
-                                stage_of(protocol, plan.n_slots()), engine().screen().offer,
-                                engine().last_differed()});
+  parts_.responder.begin_trial(trial_view(protocol, engine(), plan));
   parts_.pictures.begin_attempt({start_s_, plan.trial_number, plan.attempt});
   n_continued_ = journal_.n_continued();
   world_.emplace(protocol, plan);

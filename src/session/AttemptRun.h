@@ -8,6 +8,9 @@
 
 namespace heft {
 
+/// What the responder may know of the open trial.
+TrialView trial_view(const Protocol& protocol, const Engine& engine, const TrialPlan& plan);
+
 class AttemptRun {
  public:
   AttemptRun(const SessionParts& parts, const RunnerOptions& options, Journal& journal,

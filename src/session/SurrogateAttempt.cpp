@@ -6,8 +6,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/Pose.h"
+#include "apparatus/TrialWorld.h"
 #include "responders/ResponderParameters.h"
+#include "session/AttemptRun.h"
 
 namespace heft {
 
@@ -15,9 +16,9 @@ namespace {
 constexpr double rising_m = 1e-9;
 
 // The hand's pose on the middle line of a cube, square to it.
-Pose squared(Pose hand, const Pose& straight, double middle_x_m) {
+Pose squared(Pose hand, const Eigen::Quaterniond& straight, double middle_x_m) {
   hand.position_m.x() = middle_x_m;
-  hand.orientation = straight.orientation;
+  hand.orientation = straight;
   return hand;
 }
 }  // namespace
@@ -26,12 +27,7 @@ void SurrogateAttempt::run(const TrialPlan& plan) {
   journal_.emit_now(TrialStarted{});
   start_s_ = engine().last_s();
   now_s_ = 0;
-  const TrialView view{plan.trial_number,
-                       plan.attempt,
-                       plan.task,
-                       stage_of(parts_.protocol, plan.n_slots()),
-                       engine().screen().offer,
-                       engine().last_differed()};
+  const TrialView view = trial_view(parts_.protocol, engine(), plan);
   stage_ = view.stage;
   arrange(plan);
   log(now_s_, CubesShown{});
@@ -96,7 +92,7 @@ void SurrogateAttempt::push(Hand& hand, DisplayedFrame& frame) {
   const Hand::Stroke stroke = *hand.stroke();
   const std::size_t cube = static_cast<std::size_t>(stroke.cube);
   const double middle_x_m = cubes_[cube].position_m.x();
-  const Pose straight = upright_pose(stroke.start.position_m, std::acos(0.0));
+  const Eigen::Quaterniond straight = resting_pose(stage_, 0).orientation;
   line_.cubes = {scene_.cubes[cube]};
   line_.cubes.front().position_m = cubes_[cube].position_m;
   Drive drive(make_simulator(parts_.protocol.simulator.name), line_, stage_.display_rate_hz,
@@ -139,18 +135,16 @@ void SurrogateAttempt::end_touch(int cube, double end_s, double now_s) {
   touch_.reset();
 }
 
-bool SurrogateAttempt::is_out(std::size_t cube) const {
-  const Eigen::Vector2d reach_m = parts_.protocol.layout.area_m / 2;
-  return (cubes_[cube].position_m.head<2>().cwiseAbs().array() > reach_m.array()).any();
-}
-
 void SurrogateAttempt::return_cubes(double t_s) {
   const OutOfArea rule = parts_.protocol.layout.out_of_area;
-  bool any_out = false;
-  for (std::size_t i = 0; i < cubes_.size(); ++i) any_out = any_out || is_out(i);
+  const auto is_outside = [this](const Pose& cube) {
+    return is_out(parts_.protocol.layout, cube.position_m);
+  };
+  const bool any_out = std::ranges::any_of(cubes_, is_outside);
   for (std::size_t i = 0; i < cubes_.size(); ++i) {
-    const bool back =
-        rule == OutOfArea::together ? any_out : rule == OutOfArea::give_back && is_out(i);
+    const bool back = rule == OutOfArea::together
+                          ? any_out
+                          : rule == OutOfArea::give_back && is_outside(cubes_[i]);
     if (!back) continue;
     cubes_[i].position_m = stage_.slots_m[i];
     log(t_s, CubesReset{static_cast<int>(i) + 1});

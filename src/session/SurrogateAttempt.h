@@ -2,7 +2,7 @@
 // its strokes as always, but every stroke is straight and square, so that clone and cube move along
 // one line (simulator "push") and only the displayed frames of that stroke are computed. The
 // responder judges them as in a replay, and the engine folds the answer. Between strokes nothing is
-// simulated. results/responders compares the figures with those of full sessions.
+// simulated. protocols/README.md compares the figures with those of full sessions.
 #pragma once
 
 #include <optional>
@@ -30,7 +30,6 @@ class SurrogateAttempt {
   void push(Hand& hand, DisplayedFrame& frame);
   void end_touch(int cube, double end_s, double now_s);
   void return_cubes(double t_s);
-  bool is_out(std::size_t cube) const;
   void act(const Answer& answer);
   const Engine& engine() const { return journal_.engine(); }
   void log(double t_s, EventPayload what);

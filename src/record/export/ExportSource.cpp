@@ -79,7 +79,8 @@ ExportSource::ExportSource(const std::vector<std::string>& logs, std::optional<s
   }
   std::vector<std::string> names;
   for (const OpenLog& log : logs_) names.push_back(log.name);
-  for (std::size_t i = 0; i < logs_.size(); ++i) logs_[i].lab = lab_names(names)[i];
+  const std::vector<std::string> labs = lab_names(names);
+  for (std::size_t i = 0; i < logs_.size(); ++i) logs_[i].lab = labs[i];
   for (ExportTable& table : export_tables(participants)) tables_.push_back(shown(std::move(table)));
 }
 
