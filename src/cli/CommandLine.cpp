@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <span>
+#include <thread>
 
 #include "base/Error.h"
 #include "base/Names.h"
@@ -116,6 +117,8 @@ OptionDescription described(const CLI::Option& option) {
   return description;
 }
 
+constexpr auto minor_group = "minor";
+
 // @param before the command names before this one, with a blank after each
 CommandDescription described(const CLI::App& app, const std::string& before) {
   CommandDescription description{
@@ -128,6 +131,7 @@ CommandDescription described(const CLI::App& app, const std::string& before) {
   });
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     description.commands.push_back(described(*command, description.name + " "));
+  description.is_minor = app.get_group() == minor_group;
   return description;
 }
 
@@ -150,6 +154,7 @@ void add_completion(Command& program, const CLI::App& app) {
       program.add_command("completion", "print completion for a shell, or the manual page",
                           {"source <(heft completion bash)", "source <(heft completion zsh)",
                            "heft completion fish | source", "heft completion man > heft.1"});
+  command.is_minor();
   const std::map<std::string, std::string (*)(const CommandDescription&)> makers{
       {"bash", bash_completion},
       {"zsh", zsh_completion},
@@ -245,6 +250,17 @@ void Command::add_sessions(std::vector<std::int64_t>& sessions, const std::strin
 void Command::add_seed(std::optional<std::uint64_t>& seed, const std::string& without_it) {
   add_option("--seed", &seed, fmt::format("0...2^63-1 (default: {})", without_it))
       .whole_number(0, (std::uint64_t{1} << 63) - 1);
+}
+
+void Command::add_jobs(int& jobs, const std::string& what) {
+  jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  add_option("--jobs", &jobs,
+             fmt::format("threads; {} not depend on them (default: one per core)", what))
+      .whole_number(1, 1024);
+}
+
+void Command::is_minor() {
+  app_.group(minor_group);
 }
 
 void Command::add_to_help(const std::string& text) {

@@ -65,11 +65,16 @@ class Command {
   /// Adds --session of a log.
   void add_session(std::optional<std::int64_t>& session, const std::string& without_it);
   void add_sessions(std::vector<std::int64_t>& sessions, const std::string& help);
+  /// Adds --jobs, a number of threads. @param jobs set to one per core
+  /// @param what and a verb: "the result does"
+  void add_jobs(int& jobs, const std::string& what);
   /// Adds --seed.
   /// @param without_it its default, for --help
   void add_seed(std::optional<std::uint64_t>& seed,
                 const std::string& without_it = "drawn, printed and logged");
 
+  /// Lists the command by its name alone in its program's --help.
+  void is_minor();
   /// Appends text to --help.
   void add_to_help(const std::string& text);
   /// Requires one of its subcommands.

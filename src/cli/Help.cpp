@@ -111,14 +111,15 @@ std::string commands_in_a_row(const CommandDescription& command) {
   return fmt::format("{}", fmt::join(names, " "));
 }
 
-// One line each, but for `completion`, which the summary names.
+// One line each; the minor ones in a row.
 std::string commands_of(const CommandDescription& command, std::size_t width) {
-  std::string text;
-  for (const CommandDescription& inner : command.commands) {
-    const std::string left = "  " + last_word(inner.name);
-    if (left == "  completion") continue;
-    text += left + wrapped(inner.summary, command_column, width, left.size());
-  }
+  std::string text, minor;
+  for (const CommandDescription& inner : command.commands)
+    if (inner.is_minor)
+      minor += fmt::format(" {}", last_word(inner.name));
+    else
+      text += line_of("  " + last_word(inner.name), inner.summary, width, command_column);
+  if (!minor.empty()) text += "  also:" + minor + "\n";
   return text;
 }
 
@@ -138,10 +139,9 @@ std::string first_examples(const CommandDescription& command, std::size_t width)
 
 // Arguments and the first options, names of the others, and examples.
 std::string short_help_of(const CommandDescription& command, std::size_t width) {
-  if (!command.commands.empty())
-    return wrapped(command.summary + " " + command.footer, 0, width, 0) +
-           commands_of(command, width);
   const std::string summary = wrapped(command.summary, 0, width, 0);
+  if (!command.commands.empty())
+    return fmt::format("{}{}\n{}", summary, command.footer, commands_of(command, width));
   std::string options;
   std::vector<std::string> others;
   for (const OptionDescription& option : command.options) {

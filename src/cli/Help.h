@@ -21,6 +21,7 @@ struct CommandDescription {
   std::string summary, footer;
   std::vector<OptionDescription> options;
   std::vector<CommandDescription> commands;
+  bool is_minor = false;  ///< listed by its name alone
 };
 
 /// Words wrapped to lines of that width that begin at a column, each with a line end.

@@ -5,13 +5,14 @@ namespace {
 
 void add_all(heft::cli::Command& app) {
   heft::cli::add_commands(app);
-  app.add_command("bench", "run the studies of results/ (starts heft-bench)");
+  app.add_command("bench", "run the studies of results/ (starts heft-bench)").is_minor();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return heft::cli::run_program({"heft", "Experiments on perceived mass in AR.",
-                                 "Also: heft help COMMAND, heft completion", add_all},
-                                argc, argv);
+  return heft::cli::run_program(
+      {"heft", "Heft runs psychophysics experiments on perceived mass in augmented reality.",
+       "Start with: heft demo. Help on a command: heft help COMMAND", add_all},
+      argc, argv);
 }

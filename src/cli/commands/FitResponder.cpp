@@ -12,6 +12,7 @@
 #include "cli/SessionOptions.h"
 #include "cli/console/Terminal.h"
 #include "population/ResponderFit.h"
+#include "responders/ResponderParameters.h"
 
 namespace heft::cli {
 
@@ -24,7 +25,7 @@ struct FitResponderOptions {
   std::vector<FreeParameter> free;
   std::vector<ProtocolSetting> set;
   int people = 4000;
-  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  int jobs = 1;
   std::optional<std::uint64_t> seed;
   bool json = false;
 };
@@ -37,7 +38,6 @@ std::string number(double value) {
 }
 
 std::string interval_of(const FreeEstimate& one) {
-  if (one.identified()) return fmt::format("[{}, {}]", number(*one.low), number(*one.high));
   return fmt::format("[{}, {}]", one.low ? number(*one.low) : "...",
                      one.high ? number(*one.high) : "...");
 }
@@ -64,10 +64,9 @@ void print_fit(const ResponderFit& fit, int people) {
           : one.reported.fitted ? "fitted"
                                 : "held out");
   print("\nlog likelihood: fitted {:.2f} ({})", fit.fitted,
-        std::to_string(fit.n_fitted) + " means and SDs");
+        fmt::format("{} means and SDs", fit.n_fitted));
   if (fit.n_held_out > 0)
-    print(", held out {:.2f} ({})", fit.held_out,
-          std::to_string(fit.n_held_out) + " means and SDs");
+    print(", held out {:.2f} ({})", fit.held_out, fmt::format("{} means and SDs", fit.n_held_out));
   print("\n");
   for (const ResponderFit::Pair& pair : fit.alike)
     print("these figures hardly separate {} and {}: their estimates correlate by {:.2f}\n",
@@ -120,9 +119,9 @@ std::string model_file(const ResponderFit& fit, const ResponderOptions& given,
   std::string text = fmt::format("# Fitted by heft fit-responder to {}, protocol {}.\n",
                                  options.figures, options.protocol);
   const auto is_fitted = [&](std::string_view name) {
-    if (name.ends_with(".median")) name.remove_suffix(7);
-    return std::ranges::any_of(fit.parameters,
-                               [&](const FreeEstimate& one) { return one.free.name == name; });
+    return std::ranges::any_of(fit.parameters, [&](const FreeEstimate& one) {
+      return one.free.name == without_median(name);
+    });
   };
   for (const Parameter& one : given.parameters) {
     if (is_fitted(one.name)) continue;
@@ -132,7 +131,7 @@ std::string model_file(const ResponderFit& fit, const ResponderOptions& given,
       text += fmt::format("{} = \"{}\"\n", one.name, std::get<std::string>(one.value));
   }
   for (const FreeEstimate& one : fit.parameters) {
-    const bool is_spread = one.free.name.find('.') != std::string::npos;
+    const bool is_spread = one.free.name.ends_with(spread_ending);
     text += fmt::format("{}{} = {:.4g}\n", one.free.name, is_spread ? "" : ".median", one.value);
   }
   return text;
@@ -199,10 +198,7 @@ void add_fit_responder(Command& app) {
   command.add_option("--people", &options->people, "simulated participants, spread over the bounds")
       .shows_default()
       .whole_number(100, 1'000'000);
-  command
-      .add_option("--jobs", &options->jobs,
-                  "threads; the result does not depend on them (default: one per core)")
-      .whole_number(1, 1024);
+  command.add_jobs(options->jobs, "the result does");
   command.add_seed(options->seed, "1");
   command.add_option("--save", &options->save, "FILE.toml: the fitted model");
   command.add_flag("--json", options->json, "all figures as JSON on stdout");

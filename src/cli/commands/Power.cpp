@@ -27,7 +27,7 @@ struct PowerOptions {
   std::vector<ProtocolSetting> set;
   std::vector<int> participants{8, 13, 20};
   int studies = 100;
-  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  int jobs = 1;
   std::optional<std::uint64_t> seed;
   bool json = false, tables = false;
 };
@@ -132,10 +132,7 @@ void add_power(Command& app) {
   command.add_option("--studies", &options->studies, "simulated studies of each size")
       .shows_default()
       .whole_number(2, 100000);
-  command
-      .add_option("--jobs", &options->jobs,
-                  "threads; the result does not depend on them (default: one per core)")
-      .whole_number(1, 1024);
+  command.add_jobs(options->jobs, "the result does");
   command.add_seed(options->seed, "drawn and printed");
   command.add_option("--chart", &options->chart, "FILE.svg: power and precision by size");
   command.add_flag("--json", options->json, "all figures as JSON on stdout");

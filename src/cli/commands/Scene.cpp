@@ -168,6 +168,7 @@ void add_scene(Command& app) {
       {"heft scene SCENE.toml --trajectory T.csv > out.csv",
        "heft scene SCENE.toml --trajectory T.csv --simulator bullet-ea --rate 60",
        "heft scene SCENE.toml --trajectory T.csv --simulator auto --rate 60 --explain > out.csv"});
+  command.is_minor();
   const auto options = std::make_shared<SceneOptions>();
   command.add_option("SCENE.toml", &options->scene, "a scene file").required();
   command

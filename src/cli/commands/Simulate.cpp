@@ -24,7 +24,7 @@ struct SimulateOptions {
   std::optional<std::uint64_t> seed;
   std::optional<Shard> shard;
   int participants = 13;
-  int jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  int jobs = 1;
   bool frames = false;
 };
 
@@ -69,7 +69,7 @@ void simulate_participants(const SimulateOptions& options) {
       request.config->protocol->name, to_text(request.config->config.responder),
       request.config->seed);
   if (options.level == "surrogate")
-    say("surrogate: straight strokes, no pictures (results/responders has its errors)\n");
+    say("surrogate: straight strokes, no pictures (protocols/README.md has its errors)\n");
   else
     print_simulator(request.config);
 
@@ -136,10 +136,7 @@ void add_simulate(Command& app) {
   command.add_option("--participants", &options->participants, "how many, in all shards together")
       .whole_number(1, 1'000'000)
       .shows_default();
-  command
-      .add_option("--jobs", &options->jobs,
-                  "threads; the data do not depend on it (default: one per core)")
-      .whole_number(1, 1024);
+  command.add_jobs(options->jobs, "the data do");
   command.add_option("--db", &options->db, "the log; an existing one gets more sessions")
       .shows_default();
   command.add_seed(options->seed);

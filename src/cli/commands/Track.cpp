@@ -169,6 +169,7 @@ void add_track(Command& app) {
       {"heft track --camera-file camera.yaml --board board.toml --effector effector.toml frames/",
        "heft track --camera-file camera.yaml --board board.toml one.png two.png",
        "heft track --camera-file camera.yaml --board board.toml film.mp4 > poses.csv"});
+  command.is_minor();
   command.add_to_help(columns_explained);
   const auto options = std::make_shared<TrackOptions>();
   command.add_option("--camera-file", &options->camera, "the camera's calibration, OpenCV's YAML")
