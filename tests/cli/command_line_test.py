@@ -13,7 +13,7 @@ import subprocess
 import termios
 import time
 
-from session_harness import PROTOCOLS, ROOT, SessionTest, main, query
+from session_harness import PROTOCOLS, ROOT, SessionTest, commands_in, main, query
 
 QUICK = PROTOCOLS / "quick.toml"
 
@@ -178,7 +178,7 @@ class Output(CommandLine):
             self.assertIn("print this help", self.run_heft(command, "--help-all").stdout)
 
     def every_command(self):
-        listed = re.findall(r"^  ([a-z]+)  ", self.run_heft("help").stdout, re.M)
+        listed = commands_in(self.run_heft("help").stdout)
         self.assertGreater(len(listed), 15)
         return [[]] + [[name] for name in listed if name != "bench"] + [["calibrate", "camera"], ["sheet", "board"]]
 

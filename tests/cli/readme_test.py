@@ -16,7 +16,7 @@ import sqlite3
 import subprocess
 from pathlib import Path
 
-from session_harness import PROTOCOLS, ROOT, SessionTest, main
+from session_harness import PROTOCOLS, ROOT, SessionTest, commands_in, main
 
 
 def tree():
@@ -131,10 +131,9 @@ class Parsed(SessionTest):
         for word in words[:2]:  # a command, and a command of it
             known = subprocess.run([*program, *names, "--help"], capture_output=True, text=True).stdout
             listed = known.partition("\nCommands")[2] if names else known  # the program's: no heading
-            commands = re.findall(r"^  ([a-z]+)\s", listed, re.M)
-            if word in commands:
+            if word in commands_in(listed):
                 names.append(word)
-            elif not names and re.fullmatch("[a-z]+", word):
+            elif not names and re.fullmatch("[a-z][a-z-]*", word):
                 self.fail(f"no command {word}")
         done = subprocess.run([*program, *names, "--help"], capture_output=True, text=True)
         for word in words:
@@ -234,9 +233,8 @@ class Mentioned(Parsed):
                         self.parse(re.sub(r"^\./", "", span).replace("…", "").replace("...", ""))
 
     def test_the_readme_lists_every_command(self):
-        listed = re.findall(r"`(\w+)`", " ".join(re.findall(r"^\| (`.*?) \|", text_of("README.md"), re.M)))
-        said = self.run_heft("--help").stdout
-        commands = re.findall(r"^  ([a-z]+)\s", said, re.M) + re.search(r"^  also: (.*)", said, re.M)[1].split()
+        listed = re.findall(r"`([\w-]+)`", " ".join(re.findall(r"^\| (`.*?) \|", text_of("README.md"), re.M)))
+        commands = commands_in(self.run_heft("--help").stdout)
         self.assertGreater(len(commands), 15)
         for command in commands:
             self.assertIn(command, listed)

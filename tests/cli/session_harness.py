@@ -1,5 +1,6 @@
 """Running sessions from tests: the program, its logs, and what must be equal in two of them."""
 import os
+import re
 import sqlite3
 import subprocess
 import tempfile
@@ -34,6 +35,12 @@ from estimate order by staircase"""
 FRAMES = """
 select trial_number, trial_t_s, state_hash
 from frame join trial using (trial_id) where status = 'completed' order by frame_id"""
+
+
+def commands_in(said):
+    """The commands that a --help lists, one a line or in the row of minor ones."""
+    row = re.search(r"^  also: (.*)", said, re.M)
+    return re.findall(r"^  ([a-z][a-z-]*)\s", said, re.M) + (row[1].split() if row else [])
 
 
 def rows_of(db):
