@@ -62,10 +62,9 @@ inline bool run_jobs(int n, int n_threads, const std::function<bool(int)>& work,
     std::vector<std::jthread> threads;
     for (int i = 0; i < n_threads; ++i) threads.emplace_back(run);
     std::unique_lock lock(mutex);  // released before the threads are waited for
-    for (int seen = -1; n_done < n && !stopped;) {
-      if (seen != n_done) progress(static_cast<double>(n_done) / n);
-      seen = n_done;
-      changed.wait(lock);
+    while (n_done < n && !stopped) {
+      progress(static_cast<double>(n_done) / n);
+      changed.wait(lock, [&, seen = n_done] { return n_done != seen || stopped; });
     }
   }
   if (error) std::rethrow_exception(error);
