@@ -119,6 +119,8 @@ TEST_F(SealedLog, ChangesAreNoticed) {
       "UPDATE seal SET state = 'finished' WHERE seal_id = 3",
       "UPDATE seal SET head = (SELECT head FROM seal WHERE seal_id = 2) WHERE seal_id = 3",
       "UPDATE seal SET info_digest = digest WHERE seal_id = 1",
+      "UPDATE event SET event_id = event_id + 1 WHERE event_id = (SELECT max(event_id) FROM event)",
+      "UPDATE frame SET frame_id = frame_id + 1 WHERE frame_id = (SELECT max(frame_id) FROM frame)",
   };
   for (const std::string& sql : changes) {
     change(sql);
@@ -140,12 +142,12 @@ TEST_F(SealedLog, LastPartThatIsCutIsNoticedByItsHeadOnly) {
 }
 
 // As someone would who knows how heft computes seals.
-TEST_F(SealedLog, SealsMadeAnewHaveOtherHeads) {
-  const auto heads = LogReader(original_).seals();
-  change(cut(1, 1, 0) + "DELETE FROM seal;");
-  SessionLog::reopen(copy_, 1).seal();
+TEST_F(SealedLog, SealsMadeAnewHaveAnotherHead) {
+  const std::string head = LogReader(original_).head();
+  change(cut(2, 1, 0) + "DELETE FROM seal;");
+  SessionLog::reopen(copy_, 2).seal();
   EXPECT_TRUE(is_sound());
-  for (const Seal& seal : heads) EXPECT_FALSE(has_head(seal.head));
+  EXPECT_FALSE(has_head(head));
 }
 
 TEST_F(SealedLog, IsNotSealedTwiceWithTheSameContents) {

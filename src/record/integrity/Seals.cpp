@@ -126,6 +126,27 @@ BrokenDigest unsealed(std::int64_t session_id) {
   return broken;
 }
 
+// Digests do not cover the ids of rows. Rows are numbered from 1 without gaps, except where a
+// session was withdrawn; so an id that nothing refers to, that of a table's last row, cannot be
+// changed either.
+std::optional<BrokenDigest> misnumbered(SQLite::Database& database) {
+  SQLite::Statement withdrawn(database, "SELECT 1 FROM session WHERE state = ?");
+  withdrawn.bind(1, std::string(name_of(SessionState::withdrawn)));
+  if (withdrawn.executeStep()) return std::nullopt;
+  for (const std::string table : {"event", "frame", "answer", "trial", "setup"}) {
+    SQLite::Statement query(database,
+                            fmt::format("SELECT count(*), ifnull(max({0}_id), 0) FROM {0}", table));
+    query.executeStep();
+    const std::int64_t n_rows = query.getColumn(0), last_id = query.getColumn(1);
+    if (n_rows == last_id) continue;
+    BrokenDigest broken{
+        table, last_id, 0, 0, fmt::format("id {}", last_id), fmt::format("id {}", n_rows), {}, {}};
+    broken.row = fmt::format("the id of the last row of {}", table);
+    return broken;
+  }
+  return std::nullopt;
+}
+
 // Sessions with rows or a state that their last seals do not cover.
 std::vector<std::int64_t> unsealed_sessions(SQLite::Database& database) {
   SQLite::Statement query(
@@ -186,7 +207,7 @@ std::optional<BrokenDigest> first_broken_seal(SQLite::Database& database) {
     return broken_seal(missing.front(), "a session that is sealed", "no such session");
   const auto not_sealed = unsealed_sessions(database);
   if (not_sealed.size() > 1) return unsealed(not_sealed.front());
-  return std::nullopt;
+  return misnumbered(database);
 }
 
 SealCheck::SealCheck(SQLite::Database& database, std::int64_t session_id)

@@ -32,7 +32,8 @@ void seal_sessions(SQLite::Database& database);
 std::vector<Seal> seals_in(SQLite::Database& database);
 
 /// The first seal that does not follow from the previous one, or whose session is missing. Also
-/// sessions without a seal: only the one written last may have rows that no seal covers.
+/// sessions without a seal: only the one written last may have rows that no seal covers. And rows
+/// whose ids leave a gap, although no session was withdrawn.
 std::optional<BrokenDigest> first_broken_seal(SQLite::Database& database);
 
 /// Compares a session with its seals. The seals before a resumption cover its first rows, so it
