@@ -444,6 +444,11 @@ class Simulating(CommandLine):
                          ["sim-0001", "sim-0002", "sim-x7", "sim-0001"])
 
 
+    def test_the_surrogate_stores_no_frames(self):
+        said = self.says(2, "simulate", QUICK, "--level", "surrogate", "--frames")
+        self.assertIn("use --level hand", said)
+
+
 class ByteOrderMarks(CommandLine):
     def test_a_trajectory_from_a_spreadsheet_is_read(self):
         push = self.folder / "push.csv"

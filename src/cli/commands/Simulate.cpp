@@ -54,6 +54,8 @@ void print_start(const SimulationRequest& request, const ParticipantNumbers& num
 void simulate_participants(const SimulateOptions& options) {
   if (options.shard && !options.seed)
     throw Error("--shard needs --seed N, the same for all shards", ExitCode::usage);
+  if (options.level == "surrogate" && options.frames)
+    throw Error("--frames: the surrogate displays none; use --level hand", ExitCode::usage);
   SessionOptions given = options.given;
   if (!given.responder) given.responder = Plug{"simulated"};
   given.tracker = Plug{options.level == "camera" ? "synthetic" : options.level};
