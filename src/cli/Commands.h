@@ -8,6 +8,7 @@ namespace heft::cli {
 
 void add_analyse(Command& app);
 void add_calibrate(Command& app);
+void add_calibrate_display(Command& calibrate);
 void add_demo(Command& app);
 void add_doctor(Command& app);
 void add_export(Command& app);

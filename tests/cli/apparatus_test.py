@@ -243,6 +243,16 @@ class Apparatus(unittest.TestCase):
         self.assertIn("0 picture(s) show two or more", run.stderr)
         self.assertIn("too rarely beside another tag: 30, 31, 32, 33, 34", run.stderr)
         self.assertFalse((self.folder / "e.toml").exists())
+        on_board = self.heft(*arguments, "--on-board", "--board", APPARATUS / "board.toml")
+        self.assertEqual((on_board.returncode, on_board.stdout), (1, ""))
+        self.assertIn("of 1 picture(s) 0 were kept; 1 do not show a tag of the effector clearly; "
+                      "stand it on the board", on_board.stderr)
+        for more, message in ((["--on-board"], "--on-board needs --board"),
+                              (["--board", APPARATUS / "board.toml"], "--board requires --on-board")):
+            run = self.heft(*arguments, *more)
+            self.assertEqual(run.returncode, 2)
+            self.assertIn(message, run.stderr)
+        self.assertFalse((self.folder / "e.toml").exists())
         subprocess.run(["pdftoppm", "-r", "60", "-f", "1", "-singlefile", "-png", pdf,
                         frames / "a"], check=True)
         run = self.heft(*arguments)

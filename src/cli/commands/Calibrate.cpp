@@ -1,11 +1,8 @@
-// heft calibrate: measures the camera, the positions of the effector's tags, and the size of a
-// display.
+// heft calibrate: measures the camera, and the positions and the size of the effector's tags.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <regex>
@@ -16,35 +13,29 @@
 #include "cli/Commands.h"
 #include "cli/SessionOptions.h"
 #include "cli/console/Terminal.h"
-#include "experiment/Stage.h"
 #include "protocol/readers/Files.h"
 #include "tracking/Tracker.h"
 #include "tracking/calibration/EffectorCalibration.h"
+#include "tracking/calibration/OnBoardCalibration.h"
 #include "tracking/calibration/Response.h"
 #include "tracking/calibration/ShutterCalibration.h"
 #include "tracking/calibration/ViewCollector.h"
 #include "tracking/camera/Camera.h"
-#include "view/Window.h"
 
 namespace heft::cli {
 
 namespace {
 constexpr const char* doubtful =
     "{} is written, but should not be trusted: see above, and calibrate again\n";
-constexpr double patience_s = 5;  ///< limit for a camera without a picture
+constexpr double patience_s = 5;     ///< limit for a camera without a picture
+constexpr double no_display_hz = 0;  ///< no display waits for the pictures
 
 struct CalibrateOptions {
   std::optional<Plug> source;
   std::string board, camera_file, effector, out, size;
   std::optional<double> exposure_ms;
-  bool shutter = false;
+  bool shutter = false, on_board = false;
 };
-
-// A bad calibration must not replace the last one without a copy.
-void write_result(const std::string& path, const std::string& text) {
-  const std::string kept = replace_text_file(path, text);
-  if (!kept.empty()) say("the previous {} is kept as {}\n", path, kept);
-}
 
 // Settings of a live camera during calibration, recorded for later sessions.
 CameraRequest request_of(const CalibrateOptions& options) {
@@ -167,7 +158,7 @@ void calibrate_the_camera(const CalibrateOptions& options) {
   result.camera.response = learned_response(result.camera, board, views.pictures());
   say_views(result);
   const std::string text = summary(result) + response_in_words(result.camera);
-  write_result(options.out, to_yaml(result.camera, "Made by heft calibrate camera.\n" + text));
+  replace_file(options.out, to_yaml(result.camera, "Made by heft calibrate camera.\n" + text));
   print("{}", text);
   if (!doubts(result).empty())
     say(doubtful, options.out);
@@ -219,18 +210,64 @@ void calibrate_the_shutter(const CalibrateOptions& options) {
     throw Error(
         fmt::format("the read-out was not found, and {} is not written: see above", options.out));
   intrinsics.readout_s = std::max(result.readout_s, 0.0);
-  write_result(options.out,
+  replace_file(options.out,
                to_yaml(intrinsics, "Made by heft calibrate camera --shutter.\n" + text));
   say("{} is written. Next: heft doctor\n", options.out);
 }
 
+// From every picture of a file; from a live camera until there are enough, or Ctrl-C.
+StandingViews standing_views(Camera& camera, const MarkerBody& board, const MarkerBody& effector,
+                             const Intrinsics& intrinsics) {
+  const StopOnSignal stop;
+  say_locks(camera);
+  if (camera.is_live())
+    say("Stand the effector on the board, let go of it, and do so in several places, near and "
+        "far.\n"
+        "Ctrl-C ends with the pictures so far.\n");
+  StandingViews views(board, effector, intrinsics, camera.is_live());
+  ProgressBar bar("on the board");
+  while (const auto picture = next_picture(camera, stop)) {
+    views.offer(picture->image, name_of_picture(*picture));
+    bar.update(views.progress(), fmt::format("{} places", views.views().size()));
+    if (camera.is_live() ? views.complete() : views.full()) break;
+  }
+  return views;
+}
+
+void calibrate_the_effector_on_board(const CalibrateOptions& options) {
+  if (options.board.empty())
+    throw Error("--on-board needs --board: the board that the effector stands on", ExitCode::usage);
+  require_writable(options.out);
+  const Intrinsics intrinsics = load_intrinsics(options.camera_file);
+  const MarkerBody board = load_board(options.board), effector = load_effector(options.effector);
+  require_different_tags(board, effector);
+  const auto camera = open_camera(options.source->name, options.source->what,
+                                  request_for(intrinsics, no_display_hz));
+  const StandingViews views = standing_views(*camera, board, effector, intrinsics);
+  if (views.views().empty())
+    throw Error(
+        fmt::format("no picture shows the effector standing on the board: {}; stand it on "
+                    "the board, in view, and let go of it",
+                    views.tally()));
+  say("{}\n", views.tally());
+  const OnBoardCalibration result = calibrate_on_board(board, effector, intrinsics, views.views());
+  const std::string text = summary(result);
+  replace_file(options.out, effector_to_toml(result.effector,
+                                             "Made by heft calibrate effector --on-board from " +
+                                                 options.effector + ".\n" + text));
+  print("{}", text);
+  if (!doubts(result).empty())
+    say(doubtful, options.out);
+  else
+    say("{} is written: use it as the effector file. Next: heft doctor\n", options.out);
+}
+
 void calibrate_the_effector(const CalibrateOptions& options) {
-  constexpr double usual_rate_hz = 0;  // no display waits for the pictures
   require_writable(options.out);
   const Intrinsics intrinsics = load_intrinsics(options.camera_file);
   const MarkerBody nominal = load_effector(options.effector);
   const auto camera = open_camera(options.source->name, options.source->what,
-                                  request_for(intrinsics, usual_rate_hz));
+                                  request_for(intrinsics, no_display_hz));
   const StopOnSignal stop;
   EffectorViews views(nominal, intrinsics);
   say_locks(*camera);
@@ -247,7 +284,7 @@ void calibrate_the_effector(const CalibrateOptions& options) {
   }
   const EffectorCalibration result = calibrate_effector(nominal, intrinsics, views.views());
   const std::string text = summary(result);
-  write_result(options.out,
+  replace_file(options.out,
                effector_to_toml(result.effector, "Made by heft calibrate effector from " +
                                                      options.effector + ".\n" + text));
   print("{}", text);
@@ -293,88 +330,24 @@ void add_effector(Command& parent) {
   Command command =
       parent.add_command("effector", "measure the effector's tags, from pictures",
                          {"heft calibrate effector --camera camera:0 --camera-file camera.yaml "
-                          "--effector EFFECTOR.toml --out MEASURED.toml"});
+                          "--effector EFFECTOR.toml --out MEASURED.toml",
+                          "heft calibrate effector --on-board --camera camera:0 --camera-file "
+                          "camera.yaml --board BOARD.toml --effector MEASURED.toml "
+                          "--out MEASURED.toml"});
   const auto options = std::make_shared<CalibrateOptions>();
   add_source(command, *options);
   command.add_option("--camera-file", &options->camera_file, "the calibrated camera").required();
   command.add_option("--effector", &options->effector, "effector file as designed").required();
   command.add_option("--out", &options->out, "the effector file to write").required();
-  command.does([options] { calibrate_the_effector(*options); });
-}
-
-struct DisplayOptions {
-  int display = 0;
-  std::optional<double> width_mm, height_mm, eye_distance_mm;
-  std::string out = "display.toml";
-};
-
-double asked_mm(const std::string& what, const std::string& option) {
-  if (isatty(STDIN_FILENO) != 1)
-    throw Error(fmt::format("there is no terminal to ask for {}; give it with {}", what, option),
-                ExitCode::usage);
-  for (std::string line;;) {
-    say("{}, in millimeters: ", what);
-    if (!std::getline(std::cin, line)) throw Error("no answer was given", ExitCode::usage);
-    if (const auto mm = number_in(line); mm && *mm > 0) return *mm;
-    say("expected a number such as 450\n");
-  }
-}
-
-// Assumes square pixels.
-DisplayMeasures by_card(int display) {
-  const std::string how =
-      "Hold a bank card against the display and adjust the blue rectangle to its size with "
-      "the arrow keys (Shift: faster), the wheel or the mouse. Enter accepts, Escape leaves.";
-  say("{}\n", how);
-  const auto card = window_module().measure_card(display, how);
-  if (!card) throw Error("the display was not measured", ExitCode::interrupted);
-  const double mm_per_px = card_w_mm / card->w_px;
-  const DisplayFacts& facts = card->display;
-  return {facts.w_px, facts.h_px, facts.w_px * mm_per_px, facts.h_px * mm_per_px, 0};
-}
-
-DisplayMeasures by_ruler(const DisplayOptions& options) {
-  const std::vector<DisplayFacts> all = window_module().displays();
-  const auto number = static_cast<std::size_t>(options.display);
-  if (options.display < 0 || number >= all.size())
-    throw Error(fmt::format("there is no display {}; heft doctor prints them", options.display),
-                ExitCode::device_missing);
-  return {all[number].w_px, all[number].h_px, *options.width_mm, *options.height_mm, 0};
-}
-
-void calibrate_the_display(const DisplayOptions& options) {
-  require_writable(options.out);
-  if (options.width_mm.has_value() != options.height_mm.has_value())
-    throw Error("expected both --width-mm and --height-mm, or neither", ExitCode::usage);
-  DisplayMeasures measured = options.width_mm ? by_ruler(options) : by_card(options.display);
-  measured.eye_distance_mm =
-      options.eye_distance_mm
-          ? *options.eye_distance_mm
-          : asked_mm("from the participant's eyes to the display", "--eye-distance-mm");
-  const std::string text = to_toml(measured);
-  parse_display(text, options.out);  // invalid measures are not written
-  write_result(options.out, text);
-  print("{} x {} pixels are {:.1f} x {:.1f} mm, seen from {:.0f} mm\n", measured.w_px,
-        measured.h_px, measured.w_mm, measured.h_mm, measured.eye_distance_mm);
-  say("{} is written. Sessions that start in this folder use it, others with --display-file\n",
-      options.out);
-}
-
-void add_display(Command& parent) {
-  Command command = parent.add_command(
-      "display", "measure the participant's display, with a bank card held to it",
-      {"heft calibrate display", "heft calibrate display --display 1 --eye-distance-mm 450",
-       "heft calibrate display --width-mm 154 --height-mm 90 --eye-distance-mm 450"});
-  const auto options = std::make_shared<DisplayOptions>();
-  command.add_option("--display", &options->display, "its number (heft doctor --list)")
-      .shows_default();
-  command.add_option("--width-mm", &options->width_mm,
-                     "of its picture, measured with a ruler instead");
-  command.add_option("--height-mm", &options->height_mm, "likewise");
-  command.add_option("--eye-distance-mm", &options->eye_distance_mm,
-                     "from the participant's eyes to the display (default: asked for)");
-  command.add_option("--out", &options->out, "the file to write").shows_default();
-  command.does([options] { calibrate_the_display(*options); });
+  command.add_flag("--on-board", options->on_board,
+                   "only its print's size relative to the board's, from pictures of it standing on "
+                   "the board");
+  command.add_option("--board", &options->board, "for --on-board: board file");
+  command.does([options] {
+    if (options->on_board) return calibrate_the_effector_on_board(*options);
+    if (!options->board.empty()) throw Error("--board requires --on-board", ExitCode::usage);
+    calibrate_the_effector(*options);
+  });
 }
 }  // namespace
 
@@ -390,7 +363,7 @@ void add_calibrate(Command& app) {
   command.needs_command();
   add_camera(command);
   add_effector(command);
-  add_display(command);
+  add_calibrate_display(command);
 }
 
 }  // namespace heft::cli

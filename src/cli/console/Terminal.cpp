@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "analysis/report/Report.h"
+#include "base/files/TextFile.h"
 
 namespace heft::cli {
 
@@ -27,6 +28,11 @@ void request_stop(int) {
   stop_requested = true;
 }
 }  // namespace
+
+void replace_file(const std::string& path, const std::string& text) {
+  const std::string kept = replace_text_file(path, text);
+  if (!kept.empty()) say("the previous {} is kept as {}\n", path, kept);
+}
 
 void flush_output() {
   errno = 0;

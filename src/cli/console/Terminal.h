@@ -44,6 +44,10 @@ void print(fmt::format_string<Args...> format, Args&&... args) {
   fmt::print("{}", escaped(fmt::format(format, std::forward<Args>(args)...)));
 }
 
+/// Replaces a file, and says under which name the previous one is kept.
+/// @throws Error as replace_text_file
+void replace_file(const std::string& path, const std::string& text);
+
 /// Flushes stdout, so that later messages on stderr follow it.
 /// @throws Error if it cannot be written
 void flush_output();

@@ -143,10 +143,9 @@ std::string summary(const CameraCalibration& calibration) {
   for (const std::string& line : list) text += fmt::format("  {}\n", line);
   // A scaled scene at a scaled distance gives the same picture.
   return text +
-         "pictures cannot show whether a print is too large or too small as a whole, the board's "
-         "or "
-         "the "
-         "effector's: measure the rulers of both sheets (ruler_measured_m)\n";
+         "pictures cannot show whether the board's print is too large or too small as a whole: "
+         "measure its ruler (ruler_measured_m); the effector's is compared with it by heft "
+         "calibrate effector --on-board\n";
 }
 
 }  // namespace heft
