@@ -236,9 +236,11 @@ struct Unblinding {
 struct CameraReport {
   static constexpr EventType event_type{"camera", EventRole::recorded};
   int n_shown = 0, n_dropped = 0, n_late = 0;
+  /// Of those shown, with a second print of a tag in view; none: of a program that did not count.
+  std::optional<int> n_doubled{};
   static void event_columns(auto& report, auto& row) {
     row.json("shown", report.n_shown).json("dropped", report.n_dropped);
-    row.json("late", report.n_late);
+    row.json("late", report.n_late).json("doubled", report.n_doubled);
   }
   bool operator==(const CameraReport&) const = default;
 };

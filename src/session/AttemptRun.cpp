@@ -199,6 +199,7 @@ void AttemptRun::count_frame(const Picture& picture, const FrameRow& row) {
   ++n_shown_;
   n_dropped_ += picture.n_dropped;
   n_late_ += late;
+  n_doubled_ += picture.doubled ? 1 : 0;
   ConsoleStatus& status = control_.status;
   status.trouble.clear();
   status.n_dropped += picture.n_dropped;
@@ -214,8 +215,8 @@ void AttemptRun::count_frame(const Picture& picture, const FrameRow& row) {
 
 // On a virtual clock no picture is dropped or late.
 void AttemptRun::report_pictures() {
-  if (!parts_.clock.is_wall()) return;
-  journal_.emit_now(CameraReport{n_shown_, n_dropped_, n_late_});
+  if (!parts_.clock.is_wall() && n_doubled_ == 0) return;
+  journal_.emit_now(CameraReport{n_shown_, n_dropped_, n_late_, n_doubled_});
 }
 
 void AttemptRun::take_touches(const std::vector<Touch>& touches) {

@@ -60,7 +60,7 @@ class AttemptRun {
   ViewFrame shown_;
   std::optional<double> presented_s_;  // session time of the last frame
   int n_continued_ = 0;                // Journal::n_continued when pictures were last awaited
-  int n_shown_ = 0, n_dropped_ = 0, n_late_ = 0;
+  int n_shown_ = 0, n_dropped_ = 0, n_late_ = 0, n_doubled_ = 0;
 };
 
 }  // namespace heft

@@ -13,6 +13,7 @@
 #include "tracking/calibration/Response.h"
 #include "tracking/camera/ImageConversion.h"
 #include "tracking/camera/RollingShutter.h"
+#include "tracking/pose/OwnTags.h"
 
 namespace heft {
 
@@ -36,6 +37,9 @@ constexpr int pictures_searched_whole = 3;
 // Without a board, every so many pictures are searched for it thoroughly, which takes several times
 // as long.
 constexpr int pictures_without_a_close_search = 4;
+
+// Every so many pictures, a quarter of the picture is searched for second prints of tags.
+constexpr int pictures_between_looks = 16;
 
 // Quality of a pose whose tags are seen twice, here and where they were in a lost picture.
 constexpr double doubled_quality = 0.25;
@@ -78,6 +82,13 @@ Region region_around(const Intrinsics& camera, const MarkerBody& body,
 Region half_of(const Image& gray, bool left) {
   const int width_px = gray.width * 13 / 20;
   return {left ? 0 : gray.width - width_px, 0, width_px, gray.height};
+}
+
+// From the upper left; tags on the border of two are in one of them completely.
+Region quarter_of(const Image& gray, int number) {
+  const int width_px = gray.width * 13 / 20, height_px = gray.height * 13 / 20;
+  return {number % 2 == 0 ? 0 : gray.width - width_px, number < 2 ? 0 : gray.height - height_px,
+          width_px, height_px};
 }
 
 void require_own_tags(const MarkerBody& board, const MarkerBody& effector) {
@@ -317,6 +328,21 @@ void Tracker::take_effector(const BodyFit& fit, double t_s) {
   result_.quality = fit.quality * (is_doubled ? doubled_quality : 1);
 }
 
+// Where both bodies are followed, the rest of the picture is not searched otherwise.
+void Tracker::look_for_doubles(const std::optional<BodyFit>& effector) {
+  if (n_followed_++ % pictures_between_looks == 0) {
+    const int number = n_followed_ / pictures_between_looks % 4;
+    const Region quarter = quarter_of(gray_, number);
+    int& n = doubles_[static_cast<std::size_t>(number)] = 0;
+    const auto tags = detect(detectors_.front(), quarter);
+    n += n_elsewhere(tags, camera_, board_.body(), *result_.camera_from_board);
+    if (effector)
+      n += n_elsewhere(detectors_.size() == 1 ? tags : detect(detectors_.back(), quarter), camera_,
+                       effector_.body(), effector->camera_from_body);
+  }
+  result_.n_foreign_tags = std::max(result_.n_foreign_tags, std::ranges::max(doubles_));
+}
+
 // The last picture's result.
 TrackedPicture Tracker::repeated() {
   result_.repeated = true;
@@ -347,21 +373,24 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
   result_.n_foreign_tags = board_.n_foreign();
   if (board && !has_effector() && board->quality < least_pose_quality) board.reset();
   take_board(board);
+  std::optional<BodyFit> effector;
   if (board && has_effector()) {
-    const auto effector = find_effector(*board, t_s);
+    effector = find_effector(*board, t_s);
     result_.n_foreign_tags += effector_.n_foreign();
     if (effector && effector->quality >= least_pose_quality)
       take_effector(*effector, t_s);
     else
       ++n_unseen_;
   }
+  if (board && !board_family_tags_) look_for_doubles(effector);
   return result_;
 }
 
 void Tracker::reset() {
   last_board_.reset();
   seen_.reset();
-  n_unseen_ = n_without_board_ = 0;
+  n_unseen_ = n_without_board_ = n_followed_ = 0;
+  doubles_.fill(0);
   mix_.reset();
 }
 

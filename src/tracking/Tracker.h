@@ -2,6 +2,7 @@
 // and solves for both poses. Not filtered, see PoseFilter.h.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +31,9 @@ struct TrackedPicture {
   int n_effector_faces = 0;  ///< faces with those tags; at least two make the pose well determined
   double noise = 0;          ///< SD, gray levels of 255
   double blur_px = 0;        ///< SD of the board's edges, in linear light; 0 without the board
-  int n_foreign_tags = 0;    ///< of another print with the board's or the effector's numbers
+  /// Of another print with the board's or the effector's numbers. While both are followed, another
+  /// quarter of the picture is searched for them in turn, and what was found there remains.
+  int n_foreign_tags = 0;
   /// RMS distance of measured tag edges from the pose's.
   double board_reprojection_px = 0, effector_reprojection_px = 0;
   /// Confidence in the effector's pose (the board's without an effector), 0...1: the fraction of
@@ -93,6 +96,7 @@ class Tracker {
   BodyFit unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrior& prior, double t_s);
   TrackedPicture repeated();
   Velocity unroll(BodyFit& fit, const BodyFit& seen_board, const BiasPrior& prior, double t_s);
+  void look_for_doubles(const std::optional<BodyFit>& effector);
   void take_board(const std::optional<BodyFit>& fit);
   void take_effector(const BodyFit& fit, double t_s);
 
@@ -115,7 +119,9 @@ class Tracker {
   int last_n_board_tags_ = 0;
   int n_without_board_ = 0;  ///< number of pictures
   std::optional<SeenEffector> seen_;
-  int n_unseen_ = 0;  ///< pictures since then, or since the start
+  int n_unseen_ = 0;              ///< pictures since then, or since the start
+  std::array<int, 4> doubles_{};  ///< in the quarters of the picture, when they were last searched
+  int n_followed_ = 0;            ///< pictures that were not searched completely
 };
 
 // Diagnosis of pictures without a board or an effector.

@@ -159,13 +159,14 @@ TEST_F(LogFile, WhoIsLeftOutIsInNoFigure) {
 
 TEST(Dataset, PicturesAreCountedOverASessionsCameraEvents) {
   std::vector<LoggedEvent> events(3);
-  events[0].event.what = CameraReport{100, 2, 1};
-  events[1].event.what = CameraReport{50, 0, 3};
+  events[0].event.what = CameraReport{100, 2, 1, 20};
+  events[1].event.what = CameraReport{50, 0, 3};  // of a program that did not count doubles
   events[2].event.what = Note{R"({"shown":9})"};  // of another kind
   const PictureCounts counts = count_pictures(events);
   EXPECT_EQ(counts.shown, 150);
   EXPECT_EQ(counts.dropped, 2);
   EXPECT_EQ(counts.late, 4);
+  EXPECT_EQ(counts.doubled, 20);
 }
 
 }  // namespace

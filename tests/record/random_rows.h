@@ -145,7 +145,7 @@ inline EventPayload any_payload() {
     case 8:
       return BreakTaken{words(), time_s()};
     case 9:
-      return CameraReport{count(), count(), count()};
+      return CameraReport{count(), count(), count(), maybe(count)};
     case 10:
       return CheckResult{any_of<CheckVerdict>(), plain(), plain()};
     case 11:

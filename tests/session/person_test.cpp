@@ -34,6 +34,17 @@ std::unique_ptr<Responder> some_hand() {
   return responder_named("simulated").make({});
 }
 
+// Of a camera in whose view a spare net lies, or not.
+struct FilmedHandPictures : HandPictures {
+  using HandPictures::HandPictures;
+  std::optional<Picture> next() override {
+    auto picture = HandPictures::next();
+    if (picture) picture->doubled = doubled;
+    return picture;
+  }
+  bool doubled = false;
+};
+
 struct Session {
   explicit Session(Protocol made, MadeUpScreen::Person person = patient)
       : protocol(shared(std::move(made))), screen(std::move(person)) {}
@@ -52,7 +63,7 @@ struct Session {
   RecordedSession sink{SessionHeader{}};
   SessionClock clock = SessionClock::wall_from(0);
   std::unique_ptr<Responder> hand = some_hand();
-  HandPictures pictures{*hand, protocol->display_rate_hz};
+  FilmedHandPictures pictures{*hand, protocol->display_rate_hz};
   MadeUpScreen screen;
   ScreenTexts texts = load_texts(source_folder() + "/protocols/texts/fr.toml");
 };
@@ -189,6 +200,19 @@ TEST(Person, EveryPictureHasItsTimes) {
     EXPECT_TRUE(frame.n_dropped);
   }
   EXPECT_EQ(session.events(event_kind<CameraReport>).size(), 2U);
+}
+
+TEST(Person, PicturesWithASecondPrintOfATagAreCounted) {
+  for (const bool doubled : {false, true}) {
+    Session session(quick_protocol());
+    session.pictures.doubled = doubled;
+    session.run();
+    for (const Event& event : session.events(event_kind<CameraReport>)) {
+      const CameraReport& report = *event.as<CameraReport>();
+      EXPECT_GT(report.n_shown, 0);
+      EXPECT_EQ(report.n_doubled, doubled ? report.n_shown : 0);
+    }
+  }
 }
 
 // Commands come when a trial's screen is up, one after the other.

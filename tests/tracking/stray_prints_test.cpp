@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include "tracking/Scenes.h"
 #include "tracking/Tracker.h"
@@ -68,6 +70,41 @@ TEST(StrayPrints, AloneAreNoEffector) {
   const Found alone = found(with_stray_net(apparatus), apparatus, false);
   EXPECT_EQ(alone.n, 0);
   EXPECT_EQ(alone.n_foreign, n_pictures);
+}
+
+// The first picture in which a stray print is noticed that came into view after the fifth one,
+// while board and effector are followed; none of 70 otherwise.
+std::optional<int> noticed(const Apparatus& filmed, const Apparatus& apparatus) {
+  constexpr int n_before = 5, n_followed = 70;
+  Tracker tracker(apparatus);
+  RandomStream random(seed, "followed", 0);
+  const Pose pose = random_held_pose(random);
+  const auto held = [&](double t_s) {
+    return std::optional(
+        Pose{pose.position_m + Eigen::Vector3d(0.03 * std::sin(t_s), 0, 0), pose.orientation});
+  };
+  SyntheticSettings settings;
+  settings.hand = false;
+  SyntheticCamera before(apparatus, settings, seed), then(filmed, settings, seed);
+  for (int i = 0; i < n_followed; ++i) {
+    SyntheticCamera& camera = i < n_before ? before : then;
+    const double t_s = i / 15.0;
+    const TrackedPicture seen =
+        tracker.track(camera.picture(held, t_s, static_cast<std::uint64_t>(i)), t_s);
+    EXPECT_TRUE(seen.board_from_effector) << i;
+    if (seen.n_foreign_tags > 0) return i;
+  }
+  return std::nullopt;
+}
+
+TEST(StrayPrints, AreNoticedWhileBodiesAreFollowed) {
+  const Apparatus apparatus = default_apparatus(640);
+  EXPECT_EQ(noticed(apparatus, apparatus), std::nullopt);
+  EXPECT_TRUE(noticed(with_stray_net(apparatus), apparatus));
+  // A second print of one of the board's tags, instead of another one of its tags.
+  Apparatus filmed = apparatus;
+  filmed.board.tags[0].id = filmed.board.tags[20].id;
+  EXPECT_TRUE(noticed(filmed, apparatus));
 }
 
 }  // namespace

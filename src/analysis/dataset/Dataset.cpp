@@ -107,7 +107,7 @@ PictureCounts count_pictures(const std::vector<LoggedEvent>& events) {
   PictureCounts counts;
   for (const LoggedEvent& logged : events)
     if (const auto* report = logged.event.as<CameraReport>())
-      counts += {report->n_shown, report->n_dropped, report->n_late};
+      counts += {report->n_shown, report->n_dropped, report->n_late, report->n_doubled.value_or(0)};
   return counts;
 }
 

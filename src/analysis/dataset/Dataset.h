@@ -46,11 +46,13 @@ std::optional<double> response_time_s(const TrialRow& trial);
 /// Camera pictures of a session with a participant.
 struct PictureCounts {
   int shown = 0, dropped = 0, late = 0;
+  int doubled = 0;  ///< with a second print of a tag in view
 
   PictureCounts& operator+=(const PictureCounts& more) {
     shown += more.shown;
     dropped += more.dropped;
     late += more.late;
+    doubled += more.doubled;
     return *this;
   }
 };

@@ -133,6 +133,8 @@ std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losse
            sums.pictures.shown + sums.pictures.dropped, "not shown to a participant"},
           {"camera pictures late", sums.pictures.late, sums.pictures.shown,
            "shown more than two picture periods after they were taken"},
+          {"camera pictures with a second print of a tag", sums.pictures.doubled,
+           sums.pictures.shown, "spare sheets and nets belong out of the camera's view"},
           {"notes", sums.events.notes, std::nullopt, "logged by the experimenter or the program"},
           {"deviations from the protocol", sums.events.deviations, std::nullopt, "logged"},
           {"checks that failed", sums.events.checks_failed, std::nullopt,

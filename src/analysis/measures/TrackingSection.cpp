@@ -19,6 +19,8 @@ constexpr Measure quality{"tracking_quality", "", "mean quality", "mean over fra
 constexpr Measure n_pictures{"pictures", "", "camera pictures", "pictures of the camera shown"};
 constexpr Measure n_dropped{"pictures_dropped", "", "dropped", "camera pictures never shown"};
 constexpr Measure n_late{"pictures_late", "", "late", "camera pictures that came late"};
+constexpr Measure n_doubled{"pictures_doubled", "", "doubled",
+                            "camera pictures with a second print of a tag in view"};
 
 struct PersonTracking {
   TrackingCounts counts;
@@ -30,9 +32,7 @@ struct PersonTracking {
     counts.lost_s += more.lost_s;
     counts.answering_s += more.answering_s;
     add_frames(more.frames);
-    pictures.shown += data.pictures.shown;
-    pictures.dropped += data.pictures.dropped;
-    pictures.late += data.pictures.late;
+    pictures += data.pictures;
   }
   // Of the time from all cubes shown to the answer, without pauses; none without such a time.
   std::optional<double> in_view_percent() const {
@@ -85,6 +85,7 @@ class TrackingSection final : public Section {
       put(n_pictures, person.pictures.shown);
       put(n_dropped, person.pictures.dropped);
       put(n_late, person.pictures.late);
+      put(n_doubled, person.pictures.doubled);
     }
     return all;
   }
@@ -102,9 +103,11 @@ class TrackingSection final : public Section {
                          column(quality, Field::value, "mean_quality", "mean quality", 2),
                          column(n_pictures, Field::value, "n_pictures", "camera pictures", 0),
                          column(n_dropped, Field::value, "n_dropped", "dropped", 0),
-                         column(n_late, Field::value, "n_late", "late", 0)},
+                         column(n_late, Field::value, "n_late", "late", 0),
+                         column(n_doubled, Field::value, "n_doubled", "doubled", 0)},
                         "time: from all cubes shown to the answer; frames: where they were kept; "
-                        "jumps: the effector reappeared or jumped, and the clone was moved to it",
+                        "jumps: the effector reappeared or jumped, and the clone was moved to it; "
+                        "doubled: with a second print of a tag in view",
                         TablePlace::run_only,
                         "tracking[]"};
     table.participants = true;

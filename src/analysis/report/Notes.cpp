@@ -110,10 +110,15 @@ std::string NotesFold::dragged_note() const {
 }
 
 std::string NotesFold::pictures_note() const {
-  if (pictures_.dropped == 0 && pictures_.late == 0) return "";
-  return fmt::format(
+  if (pictures_.dropped == 0 && pictures_.late == 0 && pictures_.doubled == 0) return "";
+  std::string note = fmt::format(
       "Of {} camera pictures shown to participants, {} were late; {} more were dropped.",
       pictures_.shown, pictures_.late, pictures_.dropped);
+  if (pictures_.doubled > 0)
+    note += fmt::format(
+        " {} show a second print of a tag, which tracking had to distinguish from the own one.",
+        pictures_.doubled);
+  return note;
 }
 
 std::vector<std::string> NotesFold::result(const Summary& summary) const {

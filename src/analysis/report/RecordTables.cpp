@@ -184,10 +184,11 @@ Table session_table(const Summary& summary) {
                {"n_open", "open"},
                {"n_pictures", "pictures"},
                {"n_dropped", "dropped"},
-               {"n_late", "late"}},
+               {"n_late", "late"},
+               {"n_doubled", "doubled"}},
               {},
-              "completed, void and open are attempts at trials; dropped and late are camera "
-              "pictures",
+              "completed, void and open are attempts at trials; dropped, late and doubled (with a "
+              "second print of a tag in view) are camera pictures",
               {},
               "sessions[]"};
   for (const SessionSummary& session : summary.sessions)
@@ -196,7 +197,7 @@ Table session_table(const Summary& summary) {
                           named_cell(session.state), count(session.n_completed),
                           count(session.n_void), count(session.n_open),
                           count(session.pictures.shown), count(session.pictures.dropped),
-                          count(session.pictures.late)});
+                          count(session.pictures.late), count(session.pictures.doubled)});
   return table;
 }
 

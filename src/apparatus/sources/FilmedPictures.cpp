@@ -62,6 +62,7 @@ Picture PictureTracker::track(std::shared_ptr<const Image> image, double t_s) {
   Picture picture;
   picture.camera = std::move(image);
   picture.quality = tracked.quality;
+  picture.doubled = tracked.n_foreign_tags > 0;
   if (!board_seen_s_) board_seen_s_ = t_s;
   if (tracked.camera_from_board) {
     camera_from_board_ = tracked.camera_from_board;

@@ -28,7 +28,8 @@ struct Picture {
   std::optional<double> quality;
   std::shared_ptr<const Image> camera;  ///< none: no camera
   std::optional<Pose> camera_from_board;
-  int n_dropped = 0;  ///< by the camera, since the previous picture
+  int n_dropped = 0;     ///< by the camera, since the previous picture
+  bool doubled = false;  ///< a second print of a tag is in view
 };
 
 /// Interval at which a live source is asked for its next picture.
@@ -150,7 +151,7 @@ class PictureCount {
 };
 
 /// Tracker "hand": the responder's true effector pose at the display's rate, without pixels.
-class HandPictures final : public PictureSource {
+class HandPictures : public PictureSource {
  public:
   HandPictures(Responder& responder, double rate_hz) : responder_(responder), count_(rate_hz) {}
 

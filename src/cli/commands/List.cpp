@@ -16,21 +16,31 @@ namespace heft::cli {
 namespace {
 using Line = std::vector<std::string>;
 
-const Line headings{"session", "participant", "protocol", "purpose",
-                    "state",   "trials",      "minutes",  "pictures dropped, late",
-                    "started", "head",        "study",    "group, order"};
+const Line headings{"session",     "participant", "protocol", "purpose",
+                    "state",       "trials",      "minutes",  "pictures dropped, late",
+                    "doubled",     "started",     "head",     "study",
+                    "group, order"};
 
 std::string seconds_of(const std::string& utc) {
   return utc.substr(0, utc.find('.')) + (utc.find('.') == std::string::npos ? "" : "Z");
 }
 
+double percent(int n, int of) {
+  return of > 0 ? 100.0 * n / of : 0;
+}
+
 // Empty without a live camera.
 std::string pictures_text(const PictureCounts& pictures) {
   if (pictures.shown + pictures.dropped == 0) return "";
-  const auto percent = [](int n, int of) { return of > 0 ? 100.0 * n / of : 0; };
   return fmt::format("{:.1f} %, {:.1f} %",
                      percent(pictures.dropped, pictures.shown + pictures.dropped),
                      percent(pictures.late, pictures.shown));
+}
+
+// Empty without a second print of a tag.
+std::string doubled_text(const PictureCounts& pictures) {
+  if (pictures.doubled == 0) return "";
+  return fmt::format("{:.1f} %", percent(pictures.doubled, pictures.shown));
 }
 
 Line line_of(const SessionFacts& facts) {
@@ -43,13 +53,14 @@ Line line_of(const SessionFacts& facts) {
             trials_text(facts),
             fmt::format("{:.0f}", facts.duration_s / 60),
             pictures_text(facts.pictures),
+            doubled_text(facts.pictures),
             seconds_of(header.started_utc),
             short_head(facts.head),
             "",
             ""};
   if (const auto& place = facts.place) {
-    line[10] = fmt::format("{} {} of {}", place->study, place->number, place->participants);
-    line[11] =
+    line[11] = fmt::format("{} {} of {}", place->study, place->number, place->participants);
+    line[12] =
         place->group + (place->group.empty() || place->order.empty() ? "" : ": ") + place->order;
   }
   return line;

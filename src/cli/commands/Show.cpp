@@ -92,6 +92,9 @@ void print_pictures(const PictureCounts& pictures) {
   if (pictures.shown + pictures.dropped == 0) return;
   print("camera pictures: {} shown, {} of them late; {} dropped\n", pictures.shown, pictures.late,
         pictures.dropped);
+  if (pictures.doubled > 0)
+    print("doubles: {} of them show a second print of a tag; put spare sheets and nets away\n",
+          pictures.doubled);
 }
 
 void print_progress(const std::vector<TrialRow>& trials) {

@@ -61,6 +61,7 @@ nlohmann::ordered_json as_json(const SessionFacts& facts) {
                               {"n_pictures", facts.pictures.shown},
                               {"n_dropped", facts.pictures.dropped},
                               {"n_late", facts.pictures.late},
+                              {"n_doubled", facts.pictures.doubled},
                               {"head", facts.head},
                               {"study", nullptr}};
   if (facts.planned_trials) json["planned_trials"] = *facts.planned_trials;

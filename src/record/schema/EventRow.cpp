@@ -17,6 +17,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+template <typename Value>
+constexpr bool is_optional = false;
+template <typename Value>
+constexpr bool is_optional<std::optional<Value>> = true;
+
 [[noreturn]] void refuse(const EventRow& row, std::string_view expected) {
   throw Error(fmt::format("event \"{}\" at {} s: expected {}, found \"{}\"", name_of(row.kind),
                           row.t_s, expected, row.detail));
@@ -48,6 +53,11 @@ class ToRow {
   }
   ToRow& duration(std::optional<double> duration_s, std::optional<double> = {}) {
     return set(row_.value, duration_s);
+  }
+  // Missing where there is no value, as in events of older programs.
+  template <typename Value>
+  ToRow& json(const char* key, const std::optional<Value>& value) {
+    return value ? json(key, *value) : *this;
   }
   template <typename Value>
   ToRow& json(const char* key, const Value& value) {
@@ -108,7 +118,10 @@ class FromRow {
   FromRow& json(const char* key, Value& value) try {
     if (json_.is_null()) json_ = Json::parse(row_.detail, nullptr, /*allow_exceptions=*/false);
     if (!json_.is_object()) refuse(row_, "a JSON object");
-    if constexpr (is_listed<Value>)
+    if constexpr (is_optional<Value>)
+      value = json_.contains(key) ? Value(json_.at(key).template get<typename Value::value_type>())
+                                  : std::nullopt;
+    else if constexpr (is_listed<Value>)
       value = named_in<Value>(json_.at(key).template get<std::string>());
     else
       value = json_.at(key).template get<Value>();

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "tracking/detection/TagDetector.h"
 #include "tracking/pose/BodyPose.h"
 
 namespace heft {
@@ -18,5 +19,9 @@ bool is_above(const std::optional<Pose>& camera_from_table, const Pose& camera_f
 std::vector<TagObservation> own_tags(const std::vector<TagObservation>& tags,
                                      const std::optional<Pose>& expected,
                                      const std::optional<Pose>& camera_from_table);
+
+/// Number of detected tags with the body's ids that are elsewhere than its pose puts them.
+int n_elsewhere(const std::vector<DetectedTag>& tags, const Intrinsics& camera,
+                const MarkerBody& body, const Pose& camera_from_body);
 
 }  // namespace heft
