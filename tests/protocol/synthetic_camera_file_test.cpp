@@ -35,6 +35,7 @@ dropped = 0.14
 board_tag_scale = 1.003
 effector_tag_scale = 0.998
 focal_length_scale = 0.995
+ink_spread_m = 0.0001
 hand = false
 )";
 
@@ -64,6 +65,7 @@ TEST(SyntheticCameraFile, SetsEveryImperfection) {
   EXPECT_EQ(settings.files.board_tag_scale, 1.003);
   EXPECT_EQ(settings.files.effector_tag_scale, 0.998);
   EXPECT_EQ(settings.files.focal_length_scale, 0.995);
+  EXPECT_EQ(settings.files.ink_m, 0.0001);
   EXPECT_FALSE(settings.hand);
 }
 
@@ -125,6 +127,7 @@ TEST(SyntheticCameraFile, ShippedFileHasTheDefaults) {
                           "board_tag_scale",
                           "effector_tag_scale",
                           "focal_length_scale",
+                          "ink_spread_m",
                           "hand"})
     EXPECT_NE(shipped.find(std::string(key) + " = "), std::string::npos) << key;
 }

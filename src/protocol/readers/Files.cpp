@@ -34,6 +34,7 @@ constexpr Range shares{0, 1};
 constexpr Range sharpenings{0, 5};
 constexpr WholeRange jpeg_qualities{1, 100};
 constexpr Range lost_shares{0, 0.9};
+constexpr Range ink_spreads_m{0, 0.0005};
 constexpr Range breathings{0, 0.05};
 constexpr Range scales{0.9, 1.1};  // of prints and lenses
 
@@ -90,10 +91,13 @@ const std::vector<KindKeys>& kinds_of_files() {
         "board_tag_scale",
         "effector_tag_scale",
         "focal_length_scale",
+        "ink_spread_m",
         "hand"}},
       {FileKind::texts, "language", {"buttons", "slots", "consent", "welcome", "trial", "thanks"}},
       {FileKind::questionnaires, "questionnaire", {}},
-      {FileKind::display, "eye_distance_mm", {"width_px", "height_px", "width_mm", "height_mm"}},
+      {FileKind::display,
+       "eye_distance_mm",
+       {"width_px", "height_px", "width_mm", "height_mm", "latency"}},
       {FileKind::study,
        "study",
        {"participants", "group", "order", "protocol", "seed", "id_prefix", "db", "backup"}}};
@@ -178,6 +182,7 @@ SyntheticSettings parse_synthetic_camera(const std::string& text, const std::str
   reader.read("board_tag_scale", settings.files.board_tag_scale, scales);
   reader.read("effector_tag_scale", settings.files.effector_tag_scale, scales);
   reader.read("focal_length_scale", settings.files.focal_length_scale, scales);
+  reader.read("ink_spread_m", settings.files.ink_m, ink_spreads_m);
   reader.read("hand", settings.hand);
   reader.close();
   mistakes.throw_if_any();
@@ -213,6 +218,7 @@ std::string described(const SyntheticSettings& settings) {
   add("board's tags by", files.board_tag_scale, 1);
   add("effector's tags by", files.effector_tag_scale, 1);
   add("focal length by", files.focal_length_scale, 1);
+  add("ink spread in mm", 1e3 * files.ink_m, 0);
   return text;
 }
 

@@ -156,9 +156,10 @@ void put_before_table(LightPicture& picture, const Pose& camera_from_board, cons
 }
 }  // namespace
 
-LightPicture still_scene(const MarkerBody& board, const Pose& camera_from_board, const Lens& lens) {
+LightPicture still_scene(const MarkerBody& board, const Pose& camera_from_board, const Lens& lens,
+                         double ink_m) {
   LightPicture picture(lens.picture());
-  const PrintedFace sheet = printed_board(board);
+  const PrintedFace sheet = printed_board(board, ink_m);
   const SeenBody on_table{camera_from_board, {}};
   if (!sheet.quads.empty() && is_seen(sheet, on_table)) {
     AreaRaster raster;

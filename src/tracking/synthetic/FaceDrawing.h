@@ -80,6 +80,7 @@ std::optional<PixelBox> extent_of(const std::vector<PrintedFace>& faces, const S
 void draw_face(const PrintedFace& face, const SeenBody& body, const Lens& lens, AreaRaster& raster);
 
 /// @throws Error as printed_board
-LightPicture still_scene(const MarkerBody& board, const Pose& camera_from_board, const Lens& lens);
+LightPicture still_scene(const MarkerBody& board, const Pose& camera_from_board, const Lens& lens,
+                         double ink_m = 0);
 
 }  // namespace heft

@@ -25,22 +25,57 @@ class CellGrid {
   CellGrid(const Tag& tag, const TagPattern& pattern)
       : corners_m_(tag.corners_m), cells_(pattern.border_cells), margin_(pattern.margin_cells()) {}
 
-  Vector3d at(int column, int row) const {
-    const double u = static_cast<double>(column - margin_) / cells_;
-    const double v = static_cast<double>(row - margin_) / cells_;
+  Vector3d at(double column, double row) const {
+    const double u = (column - margin_) / cells_;
+    const double v = (row - margin_) / cells_;
     return (1 - v) * ((1 - u) * corners_m_[0] + u * corners_m_[1]) +
            v * ((1 - u) * corners_m_[3] + u * corners_m_[2]);
   }
-  std::array<Vector3d, 4> rectangle(int column0, int row0, int column1, int row1) const {
+  std::array<Vector3d, 4> rectangle(double column0, double row0, double column1,
+                                    double row1) const {
     return {at(column0, row0), at(column1, row0), at(column1, row1), at(column0, row1)};
   }
+
+  double cell_m() const { return (corners_m_[1] - corners_m_[0]).norm() / cells_; }
 
  private:
   std::array<Vector3d, 4> corners_m_;
   int cells_, margin_;
 };
 
-void add_black_cells(PrintedFace& face, const CellGrid& grid, const TagPattern& pattern) {
+// Bands of columns or rows: even ones are covered by the ink of the cells on both sides of a line,
+// odd ones are the rest of a cell.
+struct InkBands {
+  const TagPattern& pattern;
+  double ink_cells;
+
+  int n() const { return 2 * pattern.n_cells + 1; }
+  double begin(int band) const { return band / 2 + (band % 2 == 0 ? -ink_cells : ink_cells); }
+  bool is_black(int column, int row) const {
+    for (int y = (row - 1) / 2; y <= row / 2; ++y)
+      for (int x = (column - 1) / 2; x <= column / 2; ++x)
+        if (x < pattern.n_cells && y < pattern.n_cells && !pattern.is_white(x, y)) return true;
+    return false;
+  }
+};
+
+// Ink spreads by ink_m beyond the black cells' edges.
+void add_spread_cells(PrintedFace& face, const CellGrid& grid, const TagPattern& pattern,
+                      double ink_m) {
+  const InkBands bands{pattern, ink_m / grid.cell_m()};
+  for (int row = 0; row < bands.n(); ++row)
+    for (int begin = 0, end = 0; begin < bands.n(); begin = end + 1) {
+      for (end = begin; end < bands.n() && bands.is_black(end, row);) ++end;
+      if (end > begin)
+        face.quads.push_back({grid.rectangle(bands.begin(begin), bands.begin(row), bands.begin(end),
+                                             bands.begin(row + 1)),
+                              change(material::paper, material::ink)});
+    }
+}
+
+void add_black_cells(PrintedFace& face, const CellGrid& grid, const TagPattern& pattern,
+                     double ink_m) {
+  if (ink_m > 0) return add_spread_cells(face, grid, pattern, ink_m);
   for (int row = 0; row < pattern.n_cells; ++row)
     for (int column = 0; column < pattern.n_cells; ++column)
       if (!pattern.is_white(column, row))
@@ -95,7 +130,7 @@ class Paper {
   Vector2d low_ = Vector2d::Constant(1e9), high_ = Vector2d::Constant(-1e9);
 };
 
-PrintedFace effector_face(const FaceFrame& frame, const MarkerBody& effector) {
+PrintedFace effector_face(const FaceFrame& frame, const MarkerBody& effector, double ink_m) {
   PrintedFace face = bare_face(frame, material::box);
   PrintedFace cells;
   Paper label;
@@ -104,7 +139,7 @@ PrintedFace effector_face(const FaceFrame& frame, const MarkerBody& effector) {
     const TagPattern pattern = tag_pattern(effector.family, tag.id);
     const CellGrid grid(tag, pattern);
     label.add(frame, grid, pattern.n_cells);
-    add_black_cells(cells, grid, pattern);
+    add_black_cells(cells, grid, pattern, ink_m);
   }
   if (label.empty()) return face;
   face.quads.push_back({label.rectangle(frame, 0), change(material::box, material::paper)});
@@ -130,7 +165,7 @@ void check_on_table(const Tag& tag) {
 }
 }  // namespace
 
-PrintedFace printed_board(const MarkerBody& board) {
+PrintedFace printed_board(const MarkerBody& board, double ink_m) {
   const FaceFrame table{Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY(), {10, 10}};
   PrintedFace face{Vector3d::Zero(), Vector3d::UnitZ(), {}};
   Paper sheet;
@@ -139,7 +174,7 @@ PrintedFace printed_board(const MarkerBody& board) {
     const TagPattern pattern = tag_pattern(board.family, tag.id);
     const CellGrid grid(tag, pattern);
     sheet.add(table, grid, pattern.n_cells);
-    add_black_cells(face, grid, pattern);
+    add_black_cells(face, grid, pattern, ink_m);
   }
   if (!sheet.empty())
     face.quads.insert(face.quads.begin(),
@@ -147,14 +182,14 @@ PrintedFace printed_board(const MarkerBody& board) {
   return face;
 }
 
-std::vector<PrintedFace> printed_effector(const MarkerBody& effector) {
+std::vector<PrintedFace> printed_effector(const MarkerBody& effector, double ink_m) {
   if (effector.tags.empty() && effector.size_m.isZero()) return {};
   std::vector<FaceFrame> frames;
   for (const BoxFace face : faces_of(effector.box()))
     frames.push_back(face_frame(effector.box(), face));
   for (const Tag& tag : effector.tags) check_on_box(frames, tag);
   std::vector<PrintedFace> faces;
-  for (const FaceFrame& frame : frames) faces.push_back(effector_face(frame, effector));
+  for (const FaceFrame& frame : frames) faces.push_back(effector_face(frame, effector, ink_m));
   return faces;
 }
 

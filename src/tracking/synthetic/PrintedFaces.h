@@ -24,12 +24,13 @@ struct PrintedFace {
 };
 
 /// A white sheet on the table with a margin around the tags; empty for a board without tags.
+/// @param ink_m by which black cells are larger on all sides: spread ink
 /// @throws Error for an unknown family, and for tags that are not on the table
-PrintedFace printed_board(const MarkerBody& board);
+PrintedFace printed_board(const MarkerBody& board, double ink_m = 0);
 
 /// The faces of the box, with labels around the tags.
 /// @throws Error for an unknown family, and for tags that are not on a face
-std::vector<PrintedFace> printed_effector(const MarkerBody& effector);
+std::vector<PrintedFace> printed_effector(const MarkerBody& effector, double ink_m = 0);
 
 /// Linear light reflected by a material in full light, blue, green, red.
 namespace material {

@@ -118,7 +118,7 @@ SyntheticCamera::Impl::Impl(const Apparatus& of, const SyntheticSettings& with,
       seed(with_seed),
       coarse_lens(apparatus.camera),
       lens(coarse_lens.fine()),
-      effector(printed_effector(apparatus.effector)),
+      effector(printed_effector(apparatus.effector, with.files.ink_m)),
       hand(apparatus.effector.size_m, with.left_hand),
       sensor(with.optics, apparatus.camera.width_px, apparatus.camera.height_px, seed) {
   look_at_still(1);
@@ -130,7 +130,7 @@ void SyntheticCamera::Impl::look_at_still(double focal_length_scale) {
   camera.fy_px *= focal_length_scale;
   coarse_lens = Lens(camera);
   lens = coarse_lens.fine();
-  still = still_scene(apparatus.board, settings.camera_from_board, lens);
+  still = still_scene(apparatus.board, settings.camera_from_board, lens, settings.files.ink_m);
   sensor.expose(still, RowSpans::whole(coarse_of(still.box)), still_levels);
   levels = still_levels;
 }

@@ -55,6 +55,7 @@ struct Optics {
 struct FileErrors {
   double board_tag_scale = 1, effector_tag_scale = 1;  ///< tags about their centers
   double focal_length_scale = 1;
+  double ink_m = 0;  ///< by which ink spreads beyond the edges of both prints' black cells
 };
 
 struct SyntheticSettings {
