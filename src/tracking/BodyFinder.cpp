@@ -70,6 +70,22 @@ BodyFinder::BodyFinder(const Intrinsics& camera, const MarkerBody& body,
                        const TrackerSettings& settings, const EdgeMeasuring& how)
     : camera_(camera), body_(body), settings_(settings), how_(how), patterns_(patterns_of(body)) {}
 
+Region BodyFinder::region_around(const Pose& camera_from_body) const {
+  Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
+  for (const Tag& tag : body_.tags)
+    for (const Eigen::Vector3d& corner_m : tag.corners_m) {
+      const Eigen::Vector3d p = camera_from_body * corner_m;
+      if (!(p.z() > 0.01)) return {0, 0, camera_.width_px, camera_.height_px};
+      const Eigen::Vector2d pixel = project(camera_, p);
+      low = low.cwiseMin(pixel);
+      high = high.cwiseMax(pixel);
+    }
+  const double margin = 0.05 * camera_.width_px + 0.15 * (high - low).maxCoeff();
+  const auto bound = [&](double v) { return static_cast<int>(std::clamp(v, -1e6, 1e6)); };
+  return {bound(low.x() - margin), bound(low.y() - margin), bound(high.x() - low.x() + 2 * margin),
+          bound(high.y() - low.y() + 2 * margin)};
+}
+
 std::optional<BodyFit> BodyFinder::find(const Image& gray, const std::vector<DetectedTag>& detected,
                                         const Known& known, TrackerTimes& times) {
   const BiasPrior bias = prior_for(settings_, known.bias);

@@ -11,6 +11,7 @@
 #include "tracking/detection/TagDetector.h"
 #include "tracking/detection/ToneLearning.h"
 #include "tracking/pose/BodyPose.h"
+#include "tracking/pose/CellBias.h"
 #include "tracking/pose/DensePose.h"
 
 namespace heft {
@@ -46,12 +47,24 @@ class BodyFinder {
   }
   /// The lens's focal length has changed.
   void refocus(const Intrinsics& camera) { camera_ = camera; }
+  /// The body with other sizes of its tags.
+  void resize(const MarkerBody& body) {
+    body_ = body;
+    last_tags_.clear();
+  }
+  /// Of some tags of the last find.
+  std::optional<CellBias> cells(const Image& gray, const BodyFit& fit) const {
+    return cell_bias(gray, camera_, patterns_, last_tags_, fit, how_.curve, how_.noise, 8);
+  }
   /// Of the last find.
   FocalError focal_error(const BodyFit& fit, const BiasPrior& prior) const {
     return heft::focal_error(last_tags_, fit, prior);
   }
   /// Information on the camera's tone curve from the edges of the last find.
   const PictureTone& tone() const { return tone_; }
+
+  /// The part of the picture where the body is expected, with a margin for changes of motion.
+  Region region_around(const Pose& camera_from_body) const;
 
   /// What is known before a body is found.
   struct Known {

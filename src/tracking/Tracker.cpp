@@ -60,37 +60,6 @@ BiasPrior bias_of_effector(const BodyFit& board) {
   return {mean_px, bias_differs_px + bias_differs_relative * std::abs(mean_px)};
 }
 
-// The part of the picture where a body is expected, with a margin for changes of motion.
-Region region_around(const Intrinsics& camera, const MarkerBody& body,
-                     const Pose& camera_from_body) {
-  Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
-  for (const Tag& tag : body.tags)
-    for (const Eigen::Vector3d& corner_m : tag.corners_m) {
-      const Eigen::Vector3d p = camera_from_body * corner_m;
-      if (!(p.z() > 0.01)) return {0, 0, camera.width_px, camera.height_px};
-      const Eigen::Vector2d pixel = project(camera, p);
-      low = low.cwiseMin(pixel);
-      high = high.cwiseMax(pixel);
-    }
-  const double margin = 0.05 * camera.width_px + 0.15 * (high - low).maxCoeff();
-  const auto bound = [&](double v) { return static_cast<int>(std::clamp(v, -1e6, 1e6)); };
-  return {bound(low.x() - margin), bound(low.y() - margin), bound(high.x() - low.x() + 2 * margin),
-          bound(high.y() - low.y() + 2 * margin)};
-}
-
-// Left or right; both extend beyond the middle, so that each tag is completely in one of them.
-Region half_of(const Image& gray, bool left) {
-  const int width_px = gray.width * 13 / 20;
-  return {left ? 0 : gray.width - width_px, 0, width_px, gray.height};
-}
-
-// From the upper left; tags on the border of two are in one of them completely.
-Region quarter_of(const Image& gray, int number) {
-  const int width_px = gray.width * 13 / 20, height_px = gray.height * 13 / 20;
-  return {number % 2 == 0 ? 0 : gray.width - width_px, number < 2 ? 0 : gray.height - height_px,
-          width_px, height_px};
-}
-
 void require_own_tags(const MarkerBody& board, const MarkerBody& effector) {
   if (board.tags.empty()) throw Error("the board has no tags, so the table cannot be located");
   if (board.family != effector.family) return;
@@ -110,6 +79,7 @@ Tracker::Tracker(const Apparatus& apparatus, const TrackerSettings& settings)
       board_(camera_, apparatus.board, settings,
              {usual_blur_px, board_edge_pixels, 0, ToneCurve(), settings.remove_bias}),
       effector_(camera_, apparatus.effector, settings, {usual_blur_px, effector_edge_pixels}),
+      board_of_file_(apparatus.board),
       tone_(response_of(camera_).bend()) {
   require_own_tags(apparatus.board, apparatus.effector);
   const double decimate = settings.decimate > 0     ? settings.decimate
@@ -163,6 +133,21 @@ void Tracker::expect_picture() {
   for (BodyFinder* finder : {&board_, &effector_}) finder->expect(result_.noise, tone_.curve());
 }
 
+// The board's edges are measured again with tags of another size.
+std::optional<BodyFit> Tracker::learn_tag_size(std::optional<BodyFit> board) {
+  if (!board || !tag_size_.is_open() || !settings_.refine_edges || !settings_.remove_bias)
+    return board;
+  tag_size_.try_picture();
+  const auto seen = board_.cells(gray_, *board);
+  if (!seen || !tag_size_.learn(*seen)) return board;
+  board_.resize(with_larger_tags(board_of_file_, tag_size_.excess()));
+  tone_ = ToneLearner(response_of(calibrated_).bend());
+  expect_picture();
+  const auto again = board_.find_again(gray_, board->camera_from_body,
+                                       {.tags = tags_that_tell_bias}, unknown_bias, result_.times);
+  return again ? again : board;
+}
+
 // Repeats the measurement of the board's edges until the learned tone curve no longer moves them.
 std::optional<BodyFit> Tracker::learn_tone(std::optional<BodyFit> board) {
   constexpr int most_rounds = 4;
@@ -213,7 +198,7 @@ std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double 
                                {.still = false, .quality = sure_quality}, prior, result_.times);
       if (fit) return unrolled(*fit, seen_board, prior, t_s);
     }
-    const Region region = region_around(camera_, effector_.body(), *expected);
+    const Region region = effector_.region_around(*expected);
     const auto fit = effector_.find(gray_, detect(detectors_.back(), region), known, result_.times);
     if (fit) return unrolled(*fit, seen_board, prior, t_s);
   }
@@ -368,8 +353,9 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
   result_.noise = mix_.share() > 0 ? noise_of(gray_) : seen_noise;
   expect_picture();
   result_.effector_t_s = t_s;
-  auto board = learn_focus(learn_tone(find_board()), t_s);
+  auto board = learn_focus(learn_tone(learn_tag_size(find_board())), t_s);
   result_.focal_length_scale = focus_.scale();
+  result_.board_tag_excess = tag_size_.excess();
   result_.n_foreign_tags = board_.n_foreign();
   if (board && !has_effector() && board->quality < least_pose_quality) board.reset();
   take_board(board);

@@ -50,6 +50,9 @@ struct TrackedPicture {
   double last_picture = 0;
   /// Of the focal length, relative to the camera's file: a lens that refocuses breathes.
   double focal_length_scale = 1;
+  /// Of the size of the board's tags over the file's, relative to the distances between them; 0
+  /// unless it is certain. They are tracked with it.
+  double board_tag_excess = 0;
   /// The effector is beyond the reach of motion since it was last seen, or was not seen for too
   /// long.
   bool jump = false;
@@ -86,6 +89,7 @@ class Tracker {
   const std::vector<DetectedTag>& all_board_tags();
   std::vector<DetectedTag> all_effector_tags();
   std::optional<BodyFit> find_board();
+  std::optional<BodyFit> learn_tag_size(std::optional<BodyFit> board);
   std::optional<BodyFit> learn_tone(std::optional<BodyFit> board);
   std::optional<BodyFit> learn_focus(std::optional<BodyFit> board, double t_s);
   void refocus();
@@ -103,6 +107,8 @@ class Tracker {
   Intrinsics calibrated_, camera_;  ///< the file's, and with its focal length of now
   TrackerSettings settings_;
   BodyFinder board_, effector_;
+  MarkerBody board_of_file_;
+  TagSizeLearner tag_size_;
   ToneLearner tone_;
   TemporalMix mix_;
   FocusLearner focus_;

@@ -94,7 +94,7 @@ CheckVerdict verdict_on(const std::string& name, const std::vector<CheckResult>&
 TEST(PictureVerdicts, NameBlurNoiseAndSecondPrints) {
   const Apparatus apparatus = default_apparatus(640);
   const auto usual = verdicts_of({}, apparatus, apparatus);
-  for (const char* name : {"sharpness", "noise", "doubles"})
+  for (const char* name : {"sharpness", "noise", "doubles", "tag size"})
     EXPECT_EQ(verdict_on(name, usual), CheckVerdict::ok) << name;
   Optics defocused, noisy;
   defocused.blur_px = 1.6;
@@ -105,6 +105,9 @@ TEST(PictureVerdicts, NameBlurNoiseAndSecondPrints) {
   Apparatus doubled = apparatus;
   doubled.board.tags[0].id = doubled.board.tags[7].id;
   EXPECT_EQ(verdict_on("doubles", verdicts_of({}, doubled, apparatus)), CheckVerdict::warning);
+  Apparatus enlarged = apparatus;
+  enlarged.board = with_larger_tags(apparatus.board, 0.01);
+  EXPECT_EQ(verdict_on("tag size", verdicts_of({}, enlarged, apparatus)), CheckVerdict::warning);
 }
 
 TEST(LockVerdicts, HaveALineForEachControl) {

@@ -111,6 +111,7 @@ std::vector<CheckResult> ApparatusCheck::results(const CameraMode& mode, double 
   };
   all.push_back(board_verdict(pictures_, apparatus_.board,
                               why(no_board, apparatus_.board, "board", apparatus_.effector)));
+  if (!no_board) all.push_back(tag_size_verdict(pictures_));
   if (!no_board) all.push_back(tone_verdict(apparatus_.camera, tracker_.tone()));
   if (!no_board) all.push_back(sharpness_verdict(pictures_));
   if (!no_board) all.push_back(breathing_verdict(pictures_));

@@ -1,10 +1,11 @@
 // Examines a series of camera pictures and judges whether they suffice for an experiment: camera,
 // locked settings, rate, latency, light, noise, ghosting, flicker, gain, lost pictures, sharpness,
-// doubles, print scale, board, focal length, jitter, effector, speed. Each verdict states the
-// finding and what was expected. Runs before a session and in `heft doctor`.
+// doubles, print scale, board, tag size, focal length, jitter, effector, speed. Each verdict states
+// the finding and what was expected. Runs before a session and in `heft doctor`.
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -111,6 +112,8 @@ void compare_light(const std::vector<double>& before, const std::vector<double>&
                    LookedAt& seen);
 /// Second prints with the numbers of the board's or the effector's tags.
 CheckResult doubles_verdict(const Pictures& pictures);
+/// Of the board's tags relative to the distances between them.
+CheckResult tag_size_verdict(const Pictures& pictures);
 /// @param name of the result  @param what name of the body in messages
 CheckResult print_scale_verdict(const MarkerBody& body, const char* name, const char* what);
 /// @param seen the tone curve that the tracker estimated; the camera file may hold another one

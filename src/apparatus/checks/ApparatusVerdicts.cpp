@@ -122,6 +122,17 @@ CheckResult doubles_verdict(const Pictures& pictures) {
                   100 * doubled)};
 }
 
+CheckResult tag_size_verdict(const Pictures& pictures) {
+  const double excess = pictures.back().tracked.board_tag_excess;
+  if (excess == 0) return {CheckVerdict::ok, "tag size", "the board's tags fit their distances"};
+  return {
+      CheckVerdict::warning, "tag size",
+      fmt::format("the board's tags are {:.2f} % {} than in its file, relative to the distances "
+                  "between them; tracking corrects it, better multiply tag_m in the file by "
+                  "{:.4f}",
+                  100 * std::abs(excess), excess > 0 ? "larger" : "smaller", 1 + excess)};
+}
+
 // The limits of blur and noise are twice those of the usual synthetic camera.
 CheckResult sharpness_verdict(const Pictures& pictures) {
   constexpr double most_px = 1.2;

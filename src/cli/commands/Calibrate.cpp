@@ -155,7 +155,8 @@ void calibrate_the_camera(const CalibrateOptions& options) {
   say("{}; computing...\n", views.tally());
   CameraCalibration result = calibrate_camera(board, views.pictures(), views.names());
   result.camera.calibrated_at = camera->mode().held;
-  result.camera.response = learned_response(result.camera, board, views.pictures());
+  const MarkerBody printed = with_larger_tags(board, result.tags.is_off() ? result.tags.excess : 0);
+  result.camera.response = learned_response(result.camera, printed, views.pictures());
   say_views(result);
   const std::string text = summary(result) + response_in_words(result.camera);
   replace_file(options.out, to_yaml(result.camera, "Made by heft calibrate camera.\n" + text));

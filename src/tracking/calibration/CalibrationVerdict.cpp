@@ -98,6 +98,26 @@ void doubt_print(const PrintShape& print, std::vector<std::string>& list) {
         "way), as if the paper was fed askew; print it again, or with another printer",
         std::abs(print.shear_rad) * degrees, 2 * print.shear_sd_rad * degrees));
 }
+
+void doubt_tags(const TagPrint& tags, std::vector<std::string>& list) {
+  if (!tags.is_off()) return;
+  list.push_back(fmt::format(
+      "the board's tags are printed {:.2f} % ({:.2f} either way) {} than its file says, relative "
+      "to "
+      "their distances: multiply tag_m of its [grid] by {:.4f}, or enlarge the corners of each "
+      "[[tag]] about its center; the camera was calibrated with this size",
+      100 * std::abs(tags.excess), 200 * tags.excess_sd, tags.excess > 0 ? "larger" : "smaller",
+      1 + tags.excess));
+}
+
+std::string ink_in_words(const TagPrint& tags) {
+  if (!tags.has_spread()) return "";
+  return fmt::format(
+      "ink: spreads by {:.2f} mm ({:.2f} either way) beyond the edges of black squares; this is "
+      "the "
+      "print, not the camera, and tracking corrects it as it does a tone curve\n",
+      1e3 * tags.ink_m, 2e3 * tags.ink_sd_m);
+}
 }  // namespace
 
 std::vector<std::string> doubts(const CameraCalibration& calibration) {
@@ -106,6 +126,7 @@ std::vector<std::string> doubts(const CameraCalibration& calibration) {
     if (when) list.push_back(text);
   };
   doubt_print(calibration.print, list);
+  doubt_tags(calibration.tags, list);
   const double relative_focal_sd = calibration.focal_sd_px / calibration.camera.fx_px;
   doubt(calibration.n_used() < enough_views,
         fmt::format("{} views are few; take {} or more", calibration.n_used(), enough_views));
@@ -138,6 +159,10 @@ std::string summary(const CameraCalibration& calibration) {
       calibration.n_used(), calibration.views.size(), calibration.rms_px, calibration.focal_sd_px,
       calibration.center_sd_px, 100 * calibration.coverage.fraction(),
       calibration.tilt_range_rad() * degrees);
+  text +=
+      fmt::format("size of the tags relative to their distances: {:+.2f} % ({:.2f} either way)\n",
+                  100 * calibration.tags.excess, 200 * calibration.tags.excess_sd);
+  text += ink_in_words(calibration.tags);
   const auto list = doubts(calibration);
   text += list.empty() ? "verdict: good\n" : "verdict: doubtful\n";
   for (const std::string& line : list) text += fmt::format("  {}\n", line);

@@ -15,6 +15,7 @@ namespace heft {
 namespace {
 constexpr int most_bias_rounds = 6;
 constexpr double settled_bias_px = 0.002;
+constexpr int excess_rounds = 3;
 
 // Corners of one picture and of the board.
 struct Points {
@@ -195,6 +196,23 @@ double rms_px(std::vector<View>& views) {
   }
   return std::sqrt(sum / n);
 }
+
+// The camera with the views that it was found from.
+struct Solved {
+  Intrinsics camera;
+  Solution solution;
+  std::vector<View> views;
+};
+
+Solved solved(const MarkerBody& board, const std::vector<Image>& pictures,
+              const std::vector<std::string>& names, const Intrinsics& guess) {
+  Solved result{guess, {}, views_of(board, pictures, names, guess)};
+  do {
+    result.solution = solve_with_bias(result.views, board, guess);
+  } while (reject_outliers(result.views));
+  result.camera = intrinsics_of(result.solution, guess);
+  return result;
+}
 }  // namespace
 
 Intrinsics guessed_camera(int width_px, int height_px) {
@@ -217,20 +235,26 @@ CameraCalibration calibrate_camera(const MarkerBody& board, const std::vector<Im
                                    const std::vector<std::string>& names) {
   if (pictures.empty()) throw Error("there are no pictures of the board to calibrate from");
   CameraCalibration result;
-  result.camera = guessed_camera(pictures[0].width, pictures[0].height);
-  Solution solution;
-  std::vector<View> views;
-  for (int round = 0; round < 2; ++round) {  // the second round knows the lens's bending of edges
-    views = views_of(board, pictures, names, result.camera);
-    do {
-      solution = solve_with_bias(views, board, result.camera);
-    } while (reject_outliers(views));
-    result.camera = intrinsics_of(solution, result.camera);
+  const Intrinsics guess = guessed_camera(pictures[0].width, pictures[0].height);
+  // The second round knows the lens's bending of edges.
+  Solved best = solved(board, pictures, names, solved(board, pictures, names, guess).camera);
+  result.tags = print_of_tags(board, best.camera, pictures);
+  // As above: each round leaves a small part of the excess.
+  MarkerBody printed = board;
+  for (int round = 0; round < excess_rounds && result.tags.is_off(); ++round) {
+    printed = with_larger_tags(board, result.tags.excess);
+    best = solved(printed, pictures, names, best.camera);
+    const double before = result.tags.excess;
+    result.tags = print_of_tags(printed, best.camera, pictures);
+    result.tags.excess = (1 + before) * (1 + result.tags.excess) - 1;
   }
+  const Solution& solution = best.solution;
+  std::vector<View>& views = best.views;
+  result.camera = best.camera;
   result.focal_sd_px = solution.focal_sd_px;
   result.center_sd_px = solution.center_sd_px;
   result.rms_px = rms_px(views);
-  if (is_flat(board)) result.print = print_of(views, board, solution);
+  if (is_flat(board)) result.print = print_of(views, printed, solution);
   for (const View& view : views) {
     result.views.push_back(view.result);
     if (view.result.used)

@@ -11,6 +11,7 @@
 
 #include "base/PoseTypes.h"
 #include "tracking/calibration/TagViews.h"
+#include "tracking/pose/CellBias.h"
 
 namespace heft {
 
@@ -23,6 +24,31 @@ struct PrintShape {
   bool is_stretched() const;
   bool is_sheared() const;
 };
+
+/// How a board's tags were printed: larger or smaller than their distances, or with ink that
+/// spread. Both make black squares look larger, as a camera's tone curve does. They differ in what
+/// they do to a tag's cells, and by distance:
+///
+///                       borders                     cells
+///   tone curve          the same number of pixels   the same number of pixels
+///   size of the tags    in proportion to the tag    none
+///   ink                 the same length             the same length
+struct TagPrint {
+  /// Relative excess of the tags' size over the file's, measured against their distances.
+  double excess = 0, excess_sd = 0;
+  double ink_m = 0, ink_sd_m = 0;  ///< by which ink spreads beyond the edges of black cells
+  double bias_px = 0;              ///< mean outward displacement of the cells' edges
+  double by_ink_px = 0;            ///< the part of it that ink_m explains
+
+  bool is_off() const;
+  /// Whether ink explains most of what would otherwise be attributed to the camera's tone curve.
+  bool has_spread() const;
+};
+
+/// @param camera calibrated  @param pictures of the board
+/// @return zeros if fewer than three pictures show enough of it
+TagPrint print_of_tags(const MarkerBody& board, const Intrinsics& camera,
+                       const std::vector<Image>& pictures);
 
 /// The parts of the picture that the board has covered: a grid of cells with the number of tag
 /// corners in each.
@@ -57,6 +83,7 @@ struct CameraCalibration {
   std::vector<CalibratedView> views;
   Coverage coverage;  ///< by used views
   PrintShape print;   ///< of a flat board
+  TagPrint tags;      ///< the camera is of tags with this excess, if it is_off()
 
   std::size_t n_used() const;
   /// The widest angle between the board normals of two used views.

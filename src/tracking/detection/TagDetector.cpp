@@ -109,6 +109,17 @@ Region whole(const Image& image) {
   return {0, 0, image.width, image.height};
 }
 
+Region half_of(const Image& gray, bool left) {
+  const int width_px = gray.width * 13 / 20;
+  return {left ? 0 : gray.width - width_px, 0, width_px, gray.height};
+}
+
+Region quarter_of(const Image& gray, int number) {
+  const int width_px = gray.width * 13 / 20, height_px = gray.height * 13 / 20;
+  return {number % 2 == 0 ? 0 : gray.width - width_px, number < 2 ? 0 : gray.height - height_px,
+          width_px, height_px};
+}
+
 struct TagDetector::Impl {
   TagFamilyHandle family;
   std::unique_ptr<apriltag_detector_t, DestroyDetector> detector{apriltag_detector_create()};

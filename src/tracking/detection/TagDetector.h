@@ -27,6 +27,10 @@ struct Region {
 
 /// The whole picture.
 Region whole(const Image& image);
+/// Left or right; both extend beyond the middle, so that each tag is completely in one of them.
+Region half_of(const Image& gray, bool left);
+/// From the upper left; tags on the border of two are in one of them completely.
+Region quarter_of(const Image& gray, int number);
 
 /// Standard deviation of a picture's noise, gray levels, from differences of neighbors on a coarse
 /// grid.
