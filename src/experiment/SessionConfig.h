@@ -97,6 +97,8 @@ struct SessionConfig {
   std::optional<TakesKeys> keys;
   std::string heft_version, build;
   std::string run_by;  ///< the experimenter; empty: unknown
+  /// Of the display, by latency_names (Stage.h); in the event only. Empty: not measured.
+  std::map<std::string, double> display_latency_ms;
   /// Parameters drawn for a simulated participant, by name; table `participant_parameter`.
   std::map<std::string, double> participant_parameters;
   // In the event only: the protocol's file, beside which questionnaires are found, and the folder
@@ -192,11 +194,13 @@ void visit_columns(Row& row, Visit&& visit) {
         NullIfEmpty{row.run_by});
 }
 
-/// Visits what only the event holds: paths, contents of files and drawn parameters.
+/// Visits what only the event holds: paths, contents of files, drawn parameters and the display's
+/// latency.
 template <typename Row, typename Visit>
 requires std::same_as<std::remove_const_t<Row>, SessionConfig>
 void visit_contents(Row& row, Visit&& visit) {
   visit("participant_parameters", row.participant_parameters);
+  visit("display_latency_ms", row.display_latency_ms);
   visit("protocol_file", row.protocol_file);
   visit("backup", row.backup);
   visit("simulation_seed", row.simulation_seed);

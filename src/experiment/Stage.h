@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,11 +47,17 @@ struct DisplayFacts {
   double scale = 1;  ///< pixels per unit of the window system
 };
 
+/// How late a display shows a frame, from its presentation: to its light (mean), and to the arrival
+/// of a camera's picture of it (median, 5 % and 95 %).
+inline constexpr std::array<const char*, 4> latency_names{"light_ms", "picture_ms", "picture_p5_ms",
+                                                          "picture_p95_ms"};
+
 /// Measured display, read from a file.
 struct DisplayMeasures {
   int w_px = 0, h_px = 0;
   double w_mm = 0, h_mm = 0;
   double eye_distance_mm = 0;
+  std::map<std::string, double> latency_ms{};  ///< by latency_names; empty: not measured
 };
 
 }  // namespace heft

@@ -129,11 +129,14 @@ TEST(Resolve, AMeasuredDisplayIsReadWhereThereIsAScreen) {
   options.display_file = folder.file("display.toml");
   replace_text_file(*options.display_file,
                     "width_px = 1024\nheight_px = 600\nwidth_mm = 154\n"
-                    "height_mm = 86\neye_distance_mm = 500\n");
+                    "height_mm = 86\neye_distance_mm = 500\n[latency]\nlight_ms = 23.5\n"
+                    "picture_ms = 51\npicture_p5_ms = 44\npicture_p95_ms = 58\n");
   const SessionConfig config = resolved(options);
   EXPECT_EQ(config.display_w_px, 1024);
   EXPECT_EQ(config.eye_distance_mm, 500);
   EXPECT_EQ(config.display_file, options.display_file);
+  EXPECT_EQ(config.display_latency_ms.at("light_ms"), 23.5);
+  EXPECT_EQ(config.display_latency_ms.at("picture_p95_ms"), 58);
   SessionOptions unseen = model();
   unseen.display_file = options.display_file;
   EXPECT_EQ(resolved(unseen).display_file, "");

@@ -121,6 +121,7 @@ inline SessionConfig any_setup() {
   setup.hand = maybe(any_of<Side>);
   setup.keys = maybe(any_of<TakesKeys>);
   setup.participant_parameters["p"] = finite_number();
+  setup.display_latency_ms["light_ms"] = finite_number();
   return setup;
 }
 

@@ -141,6 +141,9 @@ TEST(DisplayDelay, IsThatOfAPanelFilmedByACamera) {
   EXPECT_NEAR(arrival_s, display_delay_s + camera_delay_s + 0.5 / camera_rate_hz, 0.006);
   EXPECT_NEAR(delay.between_pictures_s, 1 / camera_rate_hz, 0.002);
   EXPECT_EQ(delay_verdict(delay).verdict, CheckVerdict::ok);
+  EXPECT_EQ(delay.figures_ms().at("light_ms"), 1e3 * delay.mean_light_s());
+  EXPECT_EQ(delay.figures_ms().at("picture_ms"), 1e3 * arrival_s);
+  EXPECT_GE(delay.figures_ms().at("picture_p95_ms"), 1e3 * arrival_s);
 }
 
 TEST(DisplayDelay, NeedsAPatchInThePicture) {

@@ -71,6 +71,8 @@ struct DisplayDelay {
   int n_missed = 0;               ///< changes that no picture showed in time
 
   double mean_light_s() const;
+  /// By latency_names (Stage.h). @pre some change was seen
+  std::map<std::string, double> figures_ms() const;
 };
 
 /// Takes half a second for each change.

@@ -96,6 +96,13 @@ double DisplayDelay::mean_light_s() const {
   return light_s.empty() ? 0 : mean_s(light_s);
 }
 
+std::map<std::string, double> DisplayDelay::figures_ms() const {
+  return {{"light_ms", 1e3 * mean_light_s()},
+          {"picture_ms", quantile_ms(picture_s, 0.5)},
+          {"picture_p5_ms", quantile_ms(picture_s, 0.05)},
+          {"picture_p95_ms", quantile_ms(picture_s, 0.95)}};
+}
+
 DisplayDelay measure_display_delay(Camera& camera, const std::function<double()>& present,
                                    int n_changes) {
   std::vector<std::vector<double>> first, second;

@@ -196,6 +196,7 @@ class Resolver {
     config_.display_w_mm = measured.w_mm;
     config_.display_h_mm = measured.h_mm;
     config_.eye_distance_mm = measured.eye_distance_mm;
+    config_.display_latency_ms = measured.latency_ms;
   }
 
   void forget_display() {
@@ -205,6 +206,7 @@ class Resolver {
     config_.display_w_px = config_.display_h_px = {};
     config_.display_w_mm = config_.display_h_mm = config_.refresh_hz = {};
     config_.eye_distance_mm = config_.display_scale = {};
+    config_.display_latency_ms.clear();
   }
 
   bool simulator_stays() const {

@@ -249,12 +249,23 @@ void check_as_before_a_session(Report& report, SessionOptions given, double rate
   if (has_camera) check_shutter(report, config->apparatus.camera);
 }
 
+// Sessions with that display record it in their setup.
+void keep_latency(const std::string& file, const DisplayDelay& delay) {
+  DisplayMeasures measured = parse_display(read_text_file(file), file);
+  measured.latency_ms = delay.figures_ms();
+  replace_file(file, to_toml(measured));
+  print("{} has it as [latency]: sessions with this display record it in their setup\n", file);
+}
+
 // With the camera looking at the participant's display.
 void measure_latency(const SessionOptions& given, double rate_hz, int display) {
   constexpr int n_changes = 60;
   if (!given.tracker || given.tracker->name != "camera")
     throw Error("--latency needs the camera that looks at the display: --tracker camera:0",
                 ExitCode::usage);
+  const std::string file = given.display_file.value_or(default_display_file);
+  const bool is_measured = given.display_file || std::filesystem::exists(file);
+  if (is_measured) parse_display(read_text_file(file), file);  // before the work
   CameraRequest request;
   request.rate_hz = std::max(request.rate_hz, rate_hz);
   const auto camera = open_camera(given.tracker->name, given.tracker->what, request);
@@ -267,10 +278,13 @@ void measure_latency(const SessionOptions& given, double rate_hz, int display) {
     window->wait(0);
     return window->present({}, {.screen = Screen::setting_up}).value_or(monotonic_s());
   };
-  const CheckResult result = delay_verdict(measure_display_delay(*camera, present, n_changes));
+  const DisplayDelay delay = measure_display_delay(*camera, present, n_changes);
+  const CheckResult result = delay_verdict(delay);
   Report report;
   report.line(result.verdict, result.name, result.finding);
   if (report.failed()) throw Error("the display's delay was not measured");
+  if (is_measured) return keep_latency(file, delay);
+  say("not recorded for sessions: there is no {}, which heft calibrate display makes\n", file);
 }
 
 void list_cameras(const std::vector<VideoDevice>& devices) {
@@ -357,7 +371,9 @@ void add_doctor(Command& app) {
                    "only list cameras, trackers, views, simulators and responders");
   command.add_flag("--latency", options->latency,
                    "only measure how late the display shows a frame, with --tracker camera:N "
-                   "looking at the patch in its lower corner");
+                   "looking at the patch in its lower corner, and add it to the display's file");
+  command.add_option("--display-file", &options->given.display_file,
+                     "for --latency: the measured display (default: display.toml, if it exists)");
   command.add_option("--display", &options->display, "number of that display").shows_default();
   command.add_option("--responder", &options->responder, "only describe its parameters");
   command.does([options] {

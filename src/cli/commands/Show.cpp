@@ -124,6 +124,9 @@ std::string in_short(const SessionConfig& setup) {
                                     {"language", setup.language},
                                     {"operator", setup.run_by}})
     if (!value.empty()) reported += fmt::format(", {} {}", name, escaped_line(value));
+  if (const auto light = setup.display_latency_ms.find("light_ms");
+      light != setup.display_latency_ms.end())
+    reported += fmt::format(", light {:.0f} ms after a frame", light->second);
   for (const ProtocolSetting& setting : setup.settings)
     reported += ", set " + escaped_line(to_text(setting));
   return reported;

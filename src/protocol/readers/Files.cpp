@@ -254,7 +254,7 @@ std::vector<Parameter> parse_parameters(const std::string& text, const std::stri
 
 namespace {
 constexpr WholeRange sides_px{100, 20000};
-constexpr Range sides_mm{20, 5000}, distances_mm{50, 10000};
+constexpr Range sides_mm{20, 5000}, distances_mm{50, 10000}, latencies_ms{0, 1000};
 }  // namespace
 
 DisplayMeasures parse_display(const std::string& text, const std::string& file) {
@@ -268,17 +268,28 @@ DisplayMeasures parse_display(const std::string& text, const std::string& file) 
   reader.read("width_mm", display.w_mm, sides_mm);
   reader.read("height_mm", display.h_mm, sides_mm);
   reader.read("eye_distance_mm", display.eye_distance_mm, distances_mm);
+  if (auto latency = reader.table("latency")) {
+    latency->require({"light_ms", "picture_ms", "picture_p5_ms", "picture_p95_ms"});
+    for (const char* name : latency_names)
+      latency->read(name, display.latency_ms[name], latencies_ms);
+    latency->close();
+  }
   reader.close();
   mistakes.throw_if_any();
   return display;
 }
 
 std::string to_toml(const DisplayMeasures& display) {
-  return fmt::format(
+  std::string text = fmt::format(
       "# A display, made by heft calibrate display: sessions use it with --display-file.\n"
       "width_px = {}\nheight_px = {}\nwidth_mm = {:.4g}\nheight_mm = {:.4g}\n"
       "eye_distance_mm = {:.4g}  # from the participant's eyes to the display\n",
       display.w_px, display.h_px, display.w_mm, display.h_mm, display.eye_distance_mm);
+  if (display.latency_ms.empty()) return text;
+  text += "\n[latency]  # of a frame, found by heft doctor --latency\n";
+  for (const char* name : latency_names)
+    text += fmt::format("{} = {:.1f}\n", name, display.latency_ms.at(name));
+  return text;
 }
 
 }  // namespace heft
