@@ -2,7 +2,10 @@
 
 Run: python3 tests/cli/session_test.py PATH_TO_HEFT
 """
+import contextlib
+import json
 import shutil
+import sqlite3
 
 from session_harness import PROTOCOLS, SessionTest, change, main, outcome_of, query
 
@@ -31,6 +34,23 @@ class Running(SessionTest):
                          outcome_of(self.folder / "b.db", frames=True))
         self.session(self.folder / "c.db", seed=6)
         self.assertNotEqual(outcome_of(self.folder / "a.db"), outcome_of(self.folder / "c.db"))
+
+    def test_second_prints_of_a_tag_are_listed_and_shown(self):
+        db = self.folder / "s.db"
+        self.session(db)
+        for command in ("list", "show"):
+            self.assertNotIn("double", self.run_heft(command, "--db", db).stdout)
+        # As a session with a camera logs it.
+        with contextlib.closing(sqlite3.connect(db)) as log:
+            log.execute("insert into event (session_id, t_s, kind, detail, digest) values (1, 9, 'camera', "
+                        """'{"shown":200,"dropped":1,"late":2,"doubled":50}', '')""")
+            log.commit()
+        listed = self.run_heft("list", "--db", db).stdout
+        self.assertIn("doubled", listed)
+        self.assertIn("25.0 %", listed)
+        self.assertIn("50 of them show a second print of a tag", self.run_heft("show", "--db", db).stdout)
+        [row] = json.loads(self.run_heft("list", "--db", db, "--json").stdout)
+        self.assertEqual((row["n_pictures"], row["n_doubled"]), (200, 50))
 
     def test_a_finished_session_is_repeated_only_on_purpose(self):
         db = self.folder / "s.db"
