@@ -313,18 +313,22 @@ void Tracker::take_effector(const BodyFit& fit, double t_s) {
   result_.quality = fit.quality * (is_doubled ? doubled_quality : 1);
 }
 
+int Tracker::doubles_in(const Region& part, const std::optional<BodyFit>& effector) {
+  const auto tags = board_family_tags_ ? *board_family_tags_ : detect(detectors_.front(), part);
+  int n = n_elsewhere(tags, part, camera_, board_.body(), *result_.camera_from_board);
+  if (effector)
+    n += n_elsewhere(detectors_.size() == 1 ? tags : detect(detectors_.back(), part), part, camera_,
+                     effector_.body(), effector->camera_from_body);
+  return n;
+}
+
 // Where both bodies are followed, the rest of the picture is not searched otherwise.
 void Tracker::look_for_doubles(const std::optional<BodyFit>& effector) {
-  if (n_followed_++ % pictures_between_looks == 0) {
-    const int number = n_followed_ / pictures_between_looks % 4;
-    const Region quarter = quarter_of(gray_, number);
-    int& n = doubles_[static_cast<std::size_t>(number)] = 0;
-    const auto tags = detect(detectors_.front(), quarter);
-    n += n_elsewhere(tags, camera_, board_.body(), *result_.camera_from_board);
-    if (effector)
-      n += n_elsewhere(detectors_.size() == 1 ? tags : detect(detectors_.back(), quarter), camera_,
-                       effector_.body(), effector->camera_from_body);
-  }
+  const int looks = n_followed_ / pictures_between_looks;
+  const bool is_due = !board_family_tags_ && n_followed_++ % pictures_between_looks == 0;
+  for (int part = 0; part < 4; ++part)
+    if (board_family_tags_ || (is_due && looks % 4 == part))
+      doubles_[static_cast<std::size_t>(part)] = doubles_in(quarter_of(gray_, part), effector);
   result_.n_foreign_tags = std::max(result_.n_foreign_tags, std::ranges::max(doubles_));
 }
 
@@ -368,7 +372,7 @@ TrackedPicture Tracker::track(const Image& image, double t_s) {
     else
       ++n_unseen_;
   }
-  if (board && !board_family_tags_) look_for_doubles(effector);
+  if (board) look_for_doubles(effector);
   return result_;
 }
 

@@ -100,6 +100,7 @@ class Tracker {
   BodyFit unrolled(BodyFit fit, const BodyFit& seen_board, const BiasPrior& prior, double t_s);
   TrackedPicture repeated();
   Velocity unroll(BodyFit& fit, const BodyFit& seen_board, const BiasPrior& prior, double t_s);
+  int doubles_in(const Region& part, const std::optional<BodyFit>& effector);
   void look_for_doubles(const std::optional<BodyFit>& effector);
   void take_board(const std::optional<BodyFit>& fit);
   void take_effector(const BodyFit& fit, double t_s);

@@ -74,7 +74,7 @@ std::vector<TagObservation> own_tags(const std::vector<TagObservation>& tags,
   return own;
 }
 
-int n_elsewhere(const std::vector<DetectedTag>& tags, const Intrinsics& camera,
+int n_elsewhere(const std::vector<DetectedTag>& tags, const Region& part, const Intrinsics& camera,
                 const MarkerBody& body, const Pose& camera_from_body) {
   return static_cast<int>(std::ranges::count_if(tags, [&](const DetectedTag& seen) {
     const auto tag = std::ranges::find(body.tags, seen.id, &Tag::id);
@@ -82,6 +82,10 @@ int n_elsewhere(const std::vector<DetectedTag>& tags, const Intrinsics& camera,
     const Eigen::Vector3d own_m = camera_from_body * tag_center_m(*tag);
     const auto& c = seen.corners_px;
     const Eigen::Vector2d middle_px = (c[0] + c[1] + c[2] + c[3]) / 4;
+    const Eigen::Vector2d in_part_px = middle_px - Eigen::Vector2d(part.x, part.y);
+    if ((in_part_px.array() < 0).any() || in_part_px.x() > part.width ||
+        in_part_px.y() > part.height)
+      return false;
     return own_m.z() <= 0 || (project(camera, own_m) - middle_px).norm() > (c[1] - c[0]).norm() / 2;
   }));
 }

@@ -20,8 +20,9 @@ std::vector<TagObservation> own_tags(const std::vector<TagObservation>& tags,
                                      const std::optional<Pose>& expected,
                                      const std::optional<Pose>& camera_from_table);
 
-/// Number of detected tags with the body's ids that are elsewhere than its pose puts them.
-int n_elsewhere(const std::vector<DetectedTag>& tags, const Intrinsics& camera,
+/// Number of detected tags in a part of the picture with the body's ids that are elsewhere than its
+/// pose puts them.
+int n_elsewhere(const std::vector<DetectedTag>& tags, const Region& part, const Intrinsics& camera,
                 const MarkerBody& body, const Pose& camera_from_body);
 
 }  // namespace heft
