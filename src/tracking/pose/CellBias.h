@@ -52,7 +52,7 @@ class TagSizeLearner {
     excesses_.push_back((1 + excess_) * (1 + seen.tag_excess) - 1);
     const double median = *quantile(excesses_, 0.5), before = excess_;
     const double sd = std::hypot(seen.sd, model_sd);
-    const bool is_off = std::abs(median) > std::max(least, deviations * sd);
+    const bool is_off = std::abs(median) > std::max(least_excess, deviations * sd);
     if (!is_off)
       excess_ = 0;
     else if (std::abs(median - before) > noticeable)
@@ -66,7 +66,7 @@ class TagSizeLearner {
  private:
   static constexpr std::size_t enough = 7;
   static constexpr int most_tried = 21;
-  static constexpr double least = 0.003, deviations = 5, noticeable = 0.0003;
+  static constexpr double least_excess = 0.003, deviations = 5, noticeable = 0.0003;
   static constexpr double model_sd = 0.0004;  // under film curves
 
   std::vector<double> excesses_;
