@@ -158,7 +158,9 @@ void calibrate_the_camera(const CalibrateOptions& options) {
   const MarkerBody printed = with_larger_tags(board, result.tags.is_off() ? result.tags.excess : 0);
   result.camera.response = learned_response(result.camera, printed, views.pictures());
   say_views(result);
-  const std::string text = summary(result) + response_in_words(result.camera);
+  // Ink looks like a tone curve, which summary() names.
+  const std::string text =
+      summary(result) + (result.tags.has_spread() ? "" : response_in_words(result.camera));
   replace_file(options.out, to_yaml(result.camera, "Made by heft calibrate camera.\n" + text));
   print("{}", text);
   if (!doubts(result).empty())
