@@ -18,9 +18,9 @@ void add_friction(Choices& choices, const std::string& block, const std::vector<
   if (!text.empty()) choices.emplace_back("friction on the table in " + block, text);
 }
 
-ConfigMistakes mistakes_in_cubes(const std::vector<double>& masses_g,
-                                 const std::vector<double>& table_friction, std::size_t fewest,
-                                 std::size_t most, std::string_view why, bool or_friction) {
+ConfigMistakes mistakes_in_number_of_cubes(const std::vector<double>& masses_g,
+                                           const std::vector<double>& table_friction,
+                                           std::size_t fewest, std::size_t most) {
   ConfigMistakes mistakes;
   const std::size_t n = masses_g.size();
   const std::string range =
@@ -33,6 +33,14 @@ ConfigMistakes mistakes_in_cubes(const std::vector<double>& masses_g,
         {{"table_friction", "masses_g"},
          fmt::format("table_friction has {} values for {} masses", table_friction.size(), n),
          "one for each mass"});
+  return mistakes;
+}
+
+ConfigMistakes mistakes_in_cubes(const std::vector<double>& masses_g,
+                                 const std::vector<double>& table_friction, std::size_t fewest,
+                                 std::size_t most, std::string_view why, bool or_friction) {
+  ConfigMistakes mistakes = mistakes_in_number_of_cubes(masses_g, table_friction, fewest, most);
+  const std::size_t n = masses_g.size();
   or_friction = or_friction && table_friction.size() == n;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < i; ++j)

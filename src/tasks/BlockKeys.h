@@ -29,13 +29,15 @@ struct TechniqueTrials {
 
 int total_of(const std::vector<TechniqueTrials>& trials);
 
-/// Trials of each mass: `trials_per_mass` with `condition`, or trials = { soft = 3, hard = 3 }.
+/// Trials of each mass or set of cubes: a number with `condition`, or trials = { soft = 3, hard = 3
+/// }.
 template <typename Trials>
-struct TrialsOfEachMass {
+struct TrialsOfEach {
   Trials& trials;
+  std::string_view number_key;  ///< "trials_per_mass"
 };
 template <typename Trials>
-TrialsOfEachMass(Trials&) -> TrialsOfEachMass<Trials>;
+TrialsOfEach(Trials&, std::string_view) -> TrialsOfEach<Trials>;
 
 /// More than any session needs; bounds the cost of drawing an order.
 inline constexpr int most_trials = 500;
@@ -51,7 +53,12 @@ using Choices = std::vector<std::pair<std::string, std::string>>;
 void add_friction(Choices& choices, const std::string& block, const std::vector<double>& masses_g,
                   const std::vector<double>& table_friction);
 
-/// Checks that there is a friction for each mass, and that masses differ.
+/// Checks the number of masses, and that there is a friction for each.
+ConfigMistakes mistakes_in_number_of_cubes(const std::vector<double>& masses_g,
+                                           const std::vector<double>& table_friction,
+                                           std::size_t fewest, std::size_t most);
+
+/// The same, and that masses differ.
 /// @param why reason why equal ones are refused
 /// @param or_friction cubes of one mass may differ in friction instead
 ConfigMistakes mistakes_in_cubes(const std::vector<double>& masses_g,

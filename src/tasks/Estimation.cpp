@@ -8,15 +8,6 @@
 namespace heft {
 
 namespace {
-constexpr double slider_most = 100;
-
-// Questionnaire and key of a scale "NAME.KEY"; none: the scale names no question.
-std::optional<std::pair<std::string, std::string>> question_in(const std::string& scale) {
-  const auto point = scale.find('.');
-  if (point == std::string::npos || point == 0 || point + 1 == scale.size()) return std::nullopt;
-  return std::pair(scale.substr(0, point), scale.substr(point + 1));
-}
-
 FormQuestion question_of(const Estimation::Block& block) {
   FormQuestion question = block.question.value_or(FormQuestion{});
   if (!block.question) question.kind = QuestionKind::slider;
@@ -29,41 +20,11 @@ FormQuestion question_of(const Estimation::Block& block) {
 }
 
 bool is_range_known(const Estimation::Block& block) {
-  return block.question || !question_in(block.scale);
+  return block.question || !question_named(block.scale);
 }
 
-// Range of valid answers, and whether they are whole numbers.
-struct Scale {
-  double least = 0, most = slider_most;
-  bool whole = true;
-};
-Scale scale_of(const FormQuestion& question) {
-  switch (question.kind) {
-    case QuestionKind::choice:
-      return {1, static_cast<double>(question.choices.size())};
-    case QuestionKind::likert:
-      return {static_cast<double>(question.from), static_cast<double>(question.to)};
-    case QuestionKind::number:
-      return {question.least, question.most, false};
-    case QuestionKind::slider:
-    case QuestionKind::text:
-      break;
-  }
-  return {};
-}
-
-// The nearest valid value; numbers are rounded to three digits of their range.
-Answer answer_near(const Scale& scale, double value) {
-  const double width = scale.most - scale.least;
-  const double unit =
-      scale.whole ? 1 : std::pow(10, std::floor(std::log10(std::max(width, 1e-6))) - 2);
-  value = std::clamp(unit * std::round(value / unit), scale.least, scale.most);
+Answer estimated(double value) {
   return {{{"estimate", {}, {}, value}}};
-}
-
-// At a fraction of the way up the scale.
-Answer answer_at(const Scale& scale, double fraction) {
-  return answer_near(scale, scale.least + fraction * (scale.most - scale.least));
 }
 }  // namespace
 
@@ -82,7 +43,7 @@ ConfigMistakes Estimation::Block::check() const {
     mistakes.push_back({{"trials", "trials_per_mass", "masses_g"},
                         fmt::format("the block has {} trials", n),
                         fmt::format("1 to {}", most_trials)});
-  if (scale != "number" && scale != "slider" && !question_in(scale)) {
+  if (scale != "number" && scale != "slider" && !question_named(scale)) {
     add("scale", fmt::format("scale is \"{}\"", scale),
         "\"number\", \"slider\" or a question of a questionnaire file, NAME.KEY");
   } else if (scale == "number") {
@@ -115,28 +76,17 @@ std::vector<std::pair<std::string, std::string>> Estimation::Block::choices() co
 }
 
 std::optional<std::string> Estimation::Block::questionnaire() const {
-  const auto names = question_in(scale);
+  const auto names = question_named(scale);
   return names ? std::optional(names->first) : std::nullopt;
 }
 
-void Estimation::Block::read_question(const std::map<std::string, Questionnaire>& questionnaires) {
-  const auto names = question_in(scale);
-  if (!names) return;
-  const auto form = questionnaires.find(names->first);
-  if (form != questionnaires.end())
-    for (const FormQuestion& asked : form->second.questions)
-      if (asked.key == names->second && asked.kind != QuestionKind::text) question = asked;
-}
-
 Estimation::Run::Run(const Block& block, std::uint64_t seed) : block_(block) {
+  std::vector<CubeSet> single;
   for (std::size_t i = 0; i < block.masses_g.size(); ++i) {
-    std::vector<double> friction;
-    if (!block.table_friction.empty()) friction = {block.table_friction[i]};
-    for (const TechniqueTrials& some : block.trials)
-      order_.insert(order_.end(), static_cast<std::size_t>(some.trials),
-                    {block.masses_g[i], friction, some.technique});
+    single.push_back({{block.masses_g[i]}});
+    if (!block.table_friction.empty()) single.back().table_friction = {block.table_friction[i]};
   }
-  RandomStream(seed, "estimation order/" + block.name).shuffle(std::span(order_));
+  order_ = shuffled(single, block.trials, RandomStream(seed, "estimation order/" + block.name));
 }
 
 TrialPlan Estimation::Run::plan(const TrialKey& key) const {
@@ -147,10 +97,10 @@ TrialPlan Estimation::Run::plan(const TrialKey& key) const {
     plan.is_practice = true;
     return plan;
   }
-  const Stimulus& stimulus = order_.at(static_cast<std::size_t>(n_before));
-  TrialPlan plan = key.plan(block_.name, task.name, stimulus.technique);
-  plan.masses_g = {stimulus.mass_g};
-  plan.table_friction = stimulus.table_friction;
+  const auto& [cubes, technique] = order_.at(static_cast<std::size_t>(n_before));
+  TrialPlan plan = key.plan(block_.name, task.name, technique);
+  plan.masses_g = cubes.masses_g;
+  plan.table_friction = cubes.table_friction;
   return plan;
 }
 
@@ -165,12 +115,10 @@ std::optional<std::string> Estimation::Trial::refusal(const Action& action) cons
     return estimates ? "the standard is shown, not estimated" : "it has no number";
   if (!estimates) return std::nullopt;
   if (!std::isfinite(*action.value)) return "it is not a finite number";
-  const Scale scale = scale_of(offer_.question);
-  const bool on_scale = *action.value >= scale.least && *action.value <= scale.most &&
-                        (!scale.whole || *action.value == std::round(*action.value));
-  if (is_range_known_ && !on_scale)
-    return fmt::format("{} is not on the scale from {} to {}", *action.value, scale.least,
-                       scale.most);
+  const AnswerScale scale = scale_of(offer_.question);
+  if (is_range_known_ && !scale.takes(*action.value))
+    return fmt::format("{} is not on the scale from {} to {}", *action.value, scale.low,
+                       scale.high);
   return std::nullopt;
 }
 
@@ -184,22 +132,21 @@ std::string Estimation::Trial::answer() const {
 }
 
 Answer Estimation::simulated(const Offer& offer, const Percepts& percepts, RandomStream&) {
-  constexpr double least_mm = 5, most_mm = 100;
   // Friction 0.8 times gravity over 50 N/m (paper, 4.2).
   constexpr double mm_per_g = 0.8 * 9.81 / 50;
   if (offer.is_standard) return {{{"validate"}}};
-  const Scale scale = scale_of(offer.question);
+  const AnswerScale scale = scale_of(offer.question);
   const double remembered = std::max(0.0, percepts.remembered_mm.front());
-  if (percepts.lapse) return answer_at(scale, remembered);
+  if (percepts.lapse) return estimated(scale.at(remembered));
   if (offer.modulus)
-    return answer_near(scale, remembered / mm_per_g / offer.modulus->mass_g * offer.modulus->value);
-  return answer_at(
-      scale, std::min(1.0, std::log1p(remembered / least_mm) / std::log1p(most_mm / least_mm)));
+    return estimated(
+        scale.nearest(remembered / mm_per_g / offer.modulus->mass_g * offer.modulus->value));
+  return estimated(scale.at(felt_fraction(remembered)));
 }
 
 Answer Estimation::blind(const Offer& offer, const WithoutPercepts&, RandomStream& stream) {
   if (offer.is_standard) return {{{"validate"}}};
-  return answer_at(scale_of(offer.question), stream.uniform());
+  return estimated(scale_of(offer.question).at(stream.uniform()));
 }
 
 std::vector<ScreenState> Estimation::fullest_screens() {

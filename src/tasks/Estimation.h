@@ -13,6 +13,7 @@
 #include "base/Random.h"
 #include "experiment/ScreenTexts.h"
 #include "tasks/BlockKeys.h"
+#include "tasks/Judgment.h"
 #include "tasks/Task.h"
 #include "tasks/TaskRun.h"
 
@@ -58,7 +59,7 @@ struct Estimation {
     void visit_keys(Visit&& visit) {
       visit(ConfigKey{"masses_g", "one per trial, in g", true}, masses_g, above_zero);
       visit(table_friction_key, table_friction, zero_or_more);
-      visit(ConfigKey{"trials", "per mass"}, TrialsOfEachMass{trials});
+      visit(ConfigKey{"trials", "per mass"}, TrialsOfEach{trials, "trials_per_mass"});
       visit(ConfigKey{"scale", "number, slider or NAME.KEY", true}, scale);
       visit(ConfigKey{"low", "smallest number"}, low, any_number);
       visit(ConfigKey{"high", "largest number"}, high, any_number);
@@ -72,7 +73,9 @@ struct Estimation {
     /// The questionnaire that `scale` names, if any.
     std::optional<std::string> questionnaire() const;
     /// Copies the question that `scale` names, if present and answered on the screen.
-    void read_question(const std::map<std::string, Questionnaire>& questionnaires);
+    void read_question(const std::map<std::string, Questionnaire>& questionnaires) {
+      if (auto found = find_question(questionnaires, scale)) question = std::move(found);
+    }
   };
 
   struct Offer {
@@ -89,13 +92,8 @@ struct Estimation {
     void complete(const TrialRow&, Changes&) override { ++n_completed_; }
 
    private:
-    struct Stimulus {
-      double mass_g = 0;
-      std::vector<double> table_friction;  // of the one cube; empty: the protocol's
-      std::string technique;
-    };
     Block block_;
-    std::vector<Stimulus> order_;  // without the standard
+    std::vector<PlannedCubes> order_;  // without the standard
     int n_completed_ = 0;
   };
 
@@ -113,9 +111,8 @@ struct Estimation {
   };
 
   /// With a modulus: its value times the ratio of the mass that causes the remembered lag with the
-  /// paper's spring and friction (4.2) to the modulus' mass. Without: proportional to the logarithm
-  /// of 5 mm plus the lag (Fechner's law), with the end of the scale at 100 mm. The percept is the
-  /// only noise; a lapse is uniform on the scale.
+  /// paper's spring and friction (4.2) to the modulus' mass. Without: by felt_fraction(). The
+  /// percept is the only noise; a lapse is uniform on the scale.
   static Answer simulated(const Offer& offer, const Percepts& percepts, RandomStream&);
   static Answer blind(const Offer& offer, const WithoutPercepts&, RandomStream& stream);
   static std::vector<ScreenState> fullest_screens();

@@ -9,6 +9,7 @@
 #include "tasks/Comparison.h"
 #include "tasks/Estimation.h"
 #include "tasks/Introduction.h"
+#include "tasks/Judgment.h"
 #include "tasks/Sorting.h"
 
 namespace heft {
@@ -31,7 +32,7 @@ struct KindsOfTask {
   }
 };
 
-using Tasks = KindsOfTask<Introduction, Sorting, Comparison, Estimation>;
+using Tasks = KindsOfTask<Introduction, Sorting, Comparison, Estimation, Judgment>;
 
 /// The task's offer from ScreenState::offer; empty: its default.
 template <typename Kind>

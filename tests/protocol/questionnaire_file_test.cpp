@@ -53,7 +53,8 @@ text = "E?"
 )";
 
 TEST(QuestionnaireFile, ShippedFilesAreValidAndNameTheirSource) {
-  for (const std::string name : {"nasa_tlx", "borg_cr10", "presence", "ownership"}) {
+  for (const std::string name :
+       {"nasa_tlx", "borg_cr10", "presence", "ownership", "dissimilarity"}) {
     const std::string text = content_of(file_of(name));
     EXPECT_EQ(recognized_kind(text, "f"), FileKind::questionnaires);
     const ScreenTexts read = parse_questionnaires(text, name);
@@ -74,7 +75,8 @@ std::string logged_of(const FormQuestion& question) {
 }
 
 TEST(QuestionnaireFile, ShippedFilesAreEqualInFrenchAndMarkedAsNotValidated) {
-  for (const std::string name : {"nasa_tlx", "borg_cr10", "presence", "ownership"}) {
+  for (const std::string name :
+       {"nasa_tlx", "borg_cr10", "presence", "ownership", "dissimilarity"}) {
     const std::string text = content_of(file_of(name, "fr"));
     const ScreenTexts english = parse_questionnaires(content_of(file_of(name)), name),
                       french = parse_questionnaires(text, name);

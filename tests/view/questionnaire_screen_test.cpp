@@ -17,7 +17,8 @@ using ::testing::SizeIs;
 
 ScreenTexts texts_with_questionnaires(const std::string& language = "en") {
   ScreenTexts texts = texts_in(language);
-  for (const std::string name : {"nasa_tlx", "borg_cr10", "presence", "ownership"}) {
+  for (const std::string name :
+       {"nasa_tlx", "borg_cr10", "presence", "ownership", "dissimilarity"}) {
     const std::string file = source_folder() + "/protocols/questionnaires/" + name +
                              (language == "fr" ? ".fr.toml" : ".en.toml");
     const ScreenTexts read = parse_questionnaires(read_text_file(file), file);

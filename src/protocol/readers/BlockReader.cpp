@@ -177,14 +177,14 @@ class KeyReader {
     trials = table_.has_table("trials") ? read_trials_by_technique(table_, names_)
                                         : read_trials_of_two(table_);
   }
-  void read(std::string_view, TrialsOfEachMass<std::vector<TechniqueTrials>>& field) {
+  void read(std::string_view, TrialsOfEach<std::vector<TechniqueTrials>>& field) {
     if (table_.has_table("trials")) {
       field.trials = read_trials_by_technique(table_, names_);
       return;
     }
     TechniqueTrials all{spring_technique, 1};
-    table_.require({"trials_per_mass"});
-    table_.read("trials_per_mass", all.trials, {1, most_trials});
+    table_.require({field.number_key});
+    table_.read(field.number_key, all.trials, {1, most_trials});
     names_.techniques.read(table_, all.technique);
     field.trials = {all};
   }

@@ -2,6 +2,7 @@
 // form each tap is an answer; in the narrow column of a trial it is kept until it is validated.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "view/screens/ScreenPages.h"
@@ -43,5 +44,13 @@ class AskedQuestion {
   const std::string& given;
   bool in_trial;
 };
+
+/// The answers to a question beside the scene of a trial, and the button that confirms one.
+/// @param action of an answer as entered
+void add_question(PageBuilder& builder, const FormQuestion& question, const std::string& confirm,
+                  const std::function<Action(const std::string& given)>& action);
+/// That button, named after its action, beside the one that puts the cubes back.
+void add_confirmation(PageBuilder& builder, const std::string& words, const Action& action,
+                      bool enabled);
 
 }  // namespace heft

@@ -40,35 +40,22 @@ FormQuestion in_words(const PageBuilder& builder, const Estimation::Offer& offer
   return question;
 }
 
-void add_last(PageBuilder& builder, const std::string& name, const std::string& words,
-              const Action& action, bool enabled) {
-  const Rect row = bottom_row(builder);
-  const float gap = builder.measures.gap;
-  Control& button =
-      builder.add_button(name, cell(row, 0, 2, gap), words, answer_touch(action), key_enter);
-  button.look = Look::primary;
-  button.enabled = enabled && can_answer(builder);
-  add_put_back(builder, cell(row, 1, 2, gap));
-}
 }  // namespace
 
 void Estimation::screen(PageBuilder& builder, const Offer& offer) {
   add_scene(builder, asked_words(builder, offer));
   add_hint(builder);
-  const Rect column = column_of(builder);
   if (offer.is_standard) {  // its number is displayed where answers will be typed
+    const Rect column = column_of(builder);
     builder.add_lines({fmt::format("{:g}", offer.modulus->value)}, column, column.y,
                       builder.measures.title);
-    return add_last(builder, "validate", builder.text("buttons", "next"), {"validate"}, true);
+    return add_confirmation(builder, builder.text("buttons", "next"), {"validate"}, true);
   }
   const FormQuestion question = in_words(builder, offer);
-  const auto typed = builder.memory.typed.find(builder.entry_key(question.key));
-  const std::string given = typed == builder.memory.typed.end() ? "" : typed->second;
-  AskedQuestion(builder, question, given, AskedIn::trial)
-      .add_answers({column.x, column.y, column.width, column.height});
-  for (Control& control : builder.page.controls) control.enabled &= can_answer(builder);
-  add_last(builder, "estimate", builder.text(page, "validate"),
-           {"estimate", {}, {}, value_of(question, given)}, takes_answer(question, given));
+  add_question(builder, question, builder.text(page, "validate"),
+               [&](const std::string& given) -> Action {
+                 return {"estimate", {}, {}, value_of(question, given)};
+               });
 }
 
 }  // namespace heft

@@ -1,0 +1,136 @@
+// Judgments of people who know what they want to answer: what they tapped is what is logged, for
+// every kind of question, in both shipped languages, several sizes and for either hand.
+#include <gmock/gmock.h>
+
+#include "SourceFolder.h"
+#include "base/Random.h"
+#include "protocol/readers/Files.h"
+#include "session/TappedSession.h"
+#include "tasks/Judgment.h"
+
+namespace heft {
+namespace {
+
+using testing::made_up_s;
+using testing::Tap;
+using testing::TappedScreen;
+using testing::TappedSession;
+
+FormQuestion question(QuestionKind kind) {
+  FormQuestion asked;
+  asked.key = "asked";
+  asked.kind = kind;
+  asked.text = "A question that is long enough for two lines above the cubes, isn't it?";
+  asked.low = "Not at all";
+  asked.high = "Very much so";
+  asked.least = 1;
+  asked.most = 9;  // a digit that is tapped twice is no answer
+  for (const char* value : {"left", "none", "right", "both", "unsure"})
+    asked.choices.push_back({value, value});
+  return asked;
+}
+
+/// Taps an answer of each trial, and confirms it once it is shown.
+class Judge {
+ public:
+  Judge(std::uint64_t seed, const FormQuestion& asked) : random_(seed, "judge"), asked_(asked) {}
+
+  std::optional<Tap> operator()(const TappedScreen& screen) {
+    const Control* wanted = wanted_on(screen);
+    if (!wanted || !wanted->enabled) return std::nullopt;
+    const double down_s = made_up_s + 0.2 + 0.4 * random_.uniform();
+    const Rect& area = wanted->area;
+    const double along = wanted->slide ? 0.998 * meant_[screen.screen().trial_number] / 100 : 0.5;
+    return Tap{down_s, down_s + 0.05, area.x + static_cast<float>(along) * area.width,
+               area.y + area.height / 2};
+  }
+
+  const std::map<int, double>& meant() const { return meant_; }
+
+ private:
+  static const Control* named(const TappedScreen& screen, const std::string& name) {
+    for (const Control& control : screen.page().controls)
+      if (control.name == name) return &control;
+    return nullptr;
+  }
+
+  const Control* wanted_on(const TappedScreen& screen) {
+    const ScreenState& state = screen.screen();
+    if (state.screen != Screen::trial)
+      return named(screen, named(screen, "more") ? "more" : "next");
+    if (state.faded || !state.can_answer) return nullptr;
+    const auto [meant, is_new] = meant_.try_emplace(state.trial_number);
+    if (is_new) meant->second = any();
+    const Control* answer = named(screen, control_for(meant->second));
+    const Control* confirm = named(screen, "judge");
+    const bool is_shown =
+        answer && (answer->slide ? answer->slide->fraction.has_value()
+                                 : answer->chosen || asked_.kind == QuestionKind::number);
+    return is_shown && confirm && confirm->enabled ? confirm : answer;
+  }
+
+  double any() {
+    const AnswerScale scale = Judgment::scale(asked_);
+    return asked_.kind == QuestionKind::number ? static_cast<double>(1 + random_.below(9))
+                                               : scale.any(random_.uniform());
+  }
+
+  std::string control_for(double value) const {
+    if (asked_.kind == QuestionKind::slider) return "asked_scale";
+    if (asked_.kind == QuestionKind::choice)
+      return "asked_" + asked_.choices.at(static_cast<std::size_t>(value) - 1).value;
+    return fmt::format("asked_{}{:g}", asked_.kind == QuestionKind::number ? "key_" : "", value);
+  }
+
+  RandomStream random_;
+  FormQuestion asked_;
+  std::map<int, double> meant_;
+};
+
+Protocol judgments_of(const FormQuestion& asked) {
+  Judgment::Block block;
+  block.name = "judgment";
+  block.masses_g = {15, 100, 200, 400, 800};
+  block.cubes = 2;
+  block.trials = {{"C2", 5}};
+  block.asks = "mine.asked";
+  block.question = asked;
+  Protocol protocol = testing::small_protocol();
+  protocol.display_rate_hz = 15;
+  protocol.screens = {"en", false, false, false};
+  protocol.blocks = {block};
+  return protocol;
+}
+
+TEST(JudgmentTaps, WhatWasTappedIsWhatIsLogged) {
+  const std::array<Measures, 4> windows{
+      Measures{1024, 600}, {1280, 800, 1.3f}, {1920, 1080, 0.8f}, {800, 480}};
+  std::uint64_t seed = 0;
+  for (const QuestionKind kind :
+       {QuestionKind::choice, QuestionKind::likert, QuestionKind::slider, QuestionKind::number})
+    for (const char* language : {"en", "fr"}) {
+      SCOPED_TRACE(fmt::format("{} {}, seed {}", name_of(kind), language, ++seed));
+      const FormQuestion asked = question(kind);
+      Judge judge(seed, asked);
+      const std::string texts =
+          fmt::format("{}/protocols/texts/{}.toml", source_folder(), language);
+      TappedSession session(judgments_of(asked), load_texts(texts), std::ref(judge),
+                            windows[seed % 4], seed % 3 == 0);
+      ASSERT_EQ(session.run(), RunEnd::finished);
+      std::map<int, double> logged;
+      for (const RecordedEntry& entry : session.sink.entries())
+        if (const auto* recorded = std::get_if<RecordedEvent>(&entry))
+          if (const auto& row = recorded->changes.trial;
+              row && row->status == TrialStatus::completed) {
+            EXPECT_EQ(row->outcome, kind == QuestionKind::choice ? "chosen" : "judged");
+            logged[row->plan.trial_number] = *row->value;
+          }
+      EXPECT_EQ(logged.size(), 50u);
+      EXPECT_EQ(logged, judge.meant());
+      EXPECT_EQ(testing::events_of(session.sink, event_kind<Action>).size(), 50u)
+          << "one answer a trial";
+    }
+}
+
+}  // namespace
+}  // namespace heft
