@@ -87,6 +87,34 @@ choice = [{ value = "a", text = "Apple" },
         self.assertRegex(run.stderr, r"q_x\.en\.toml: on a screen of 1024 x 600: questionnaire_q_x: "
                                      '"Donau.*" does not fit')
 
+    def test_questions_of_trials_are_checked_beside_the_cubes(self):
+        self.file("q_y.en.toml", '''[questionnaire.q_y]
+title = "One"
+[[questionnaire.q_y.question]]
+key = "c"
+kind = "choice"
+text = "Which?"
+choice = [{ value = "a", text = "Apple" }, { value = "b", text = "Ananaskirschmarmeladenbrot" }]
+[[questionnaire.q_y.question]]
+key = "spoken"
+kind = "text"
+text = "Why?"
+''')
+        judgment = (PROTOCOLS / "examples" / "judgment.toml").read_text(encoding="utf-8")
+        fits = self.validate(self.file("fits.toml", judgment))
+        self.assertEqual((fits.returncode, fits.stderr), (0, ""))
+        self.assertIn("about 12 trials", fits.stdout)
+        wide = self.validate(self.file("wide.toml", judgment.replace(
+            '"dissimilarity.heaviness"', '"q_y.c"')))
+        self.assertEqual(wide.returncode, 0, wide.stderr)
+        self.assertRegex(wide.stderr, r'q_y\.en\.toml: on a screen of 1024 x 600: trial_judgment: "Ananas')
+        line = judgment[:judgment.index("\nquestion =")].count("\n") + 2
+        for name in ("q_y.none", "q_y.spoken"):
+            lacking = self.validate(self.file("lacking.toml", judgment.replace(
+                "dissimilarity.heaviness", name)))
+            self.assertEqual((lacking.returncode, lacking.stdout), (3, ""))
+            self.assertRegex(lacking.stderr, rf"lacking\.toml:{line}:12: block pairs asks .*q_y\.en\.toml lacks")
+
     def test_a_character_without_font_hides_no_word_that_does_not_fit(self):
         asks = self.questioned("Choose \U0010ffff")
         plan = self.file("plan.toml", '''study = "x"

@@ -103,7 +103,8 @@ void draw_svg(const std::string& file,
 
 struct WordFaults {
   std::vector<std::string> cautions;  ///< texts that are hard to read on the smallest screen
-  std::vector<Mistake> mistakes;      ///< characters that no installed font has
+  /// Characters that no installed font has, and questions of trials that are missing.
+  std::vector<Mistake> mistakes;
 };
 
 /// Of a text file alone, at normal and at large text size.

@@ -8,6 +8,7 @@
 #include "base/files/TextFile.h"
 #include "cli/SessionOptions.h"
 #include "cli/reports/Reports.h"
+#include "engine/RunningAttempt.h"
 #include "protocol/Protocol.h"
 #include "protocol/readers/Files.h"
 #include "view/text/TextFit.h"
@@ -79,6 +80,42 @@ void add_missing_characters(const SessionWords& words, WordFaults& faults) {
     by_file[words.file_of(one.text.substr(0, one.text.find('.')))].push_back(one);
   for (const auto& [file, lacking] : by_file) add_missing_characters(lacking, file, faults);
 }
+
+// Where a questionnaire is named as that of a trial's question.
+SourcePlace place_of_question(const std::string& questionnaire, const std::string& protocol_text,
+                              const std::string& file) {
+  const auto at = protocol_text.find('"' + questionnaire + '.');
+  if (at == std::string::npos) return {file};
+  const std::string before = protocol_text.substr(0, at);
+  const auto line_start = before.rfind('\n') + 1;  // npos + 1 is 0
+  return {file, static_cast<int>(std::ranges::count(before, '\n')) + 1,
+          static_cast<int>(at - line_start) + 1};
+}
+
+// Checks that the questions of trials exist and fit beside the cubes.
+void check_questions(Protocol protocol, const std::string& protocol_file, const SessionWords& words,
+                     WordFaults& faults) {
+  const Measures screen = smallest_screen(protocol.screens.text_size);
+  for (Block& block : protocol.blocks) {
+    auto* trials = std::get_if<TaskBlock>(&block);
+    if (!trials || !trials->questionnaire()) continue;
+    const std::string name = *trials->questionnaire();
+    trials->read_question(words.texts.questionnaires);
+    const std::string& file = words.file_of(questionnaire_page(name));
+    if (trials->lacks_question()) {
+      faults.mistakes.push_back(
+          {place_of_question(name, protocol.text, protocol_file),
+           fmt::format("block {} asks a question of the questionnaire {} that {} lacks; expected "
+                       "one that is answered on the screen",
+                       trials->name(), name, file)});
+      continue;
+    }
+    const auto trial = trials->trial(trials->run(0)->plan({}), 0);
+    for (const std::string& sentence :
+         texts_that_do_not_fit(words.texts, screen, {screen_of(*trial)}))
+      faults.cautions.push_back(file + ": " + on_smallest_screen(sentence));
+  }
+}
 }  // namespace
 
 WordFaults faults_in_words(const ScreenTexts& texts, const std::string& file) {
@@ -106,6 +143,7 @@ WordFaults faults_in_words(const Protocol& protocol, const std::string& protocol
     const std::string page = sentence.substr(0, sentence.find(": "));
     faults.cautions.push_back(words.file_of(page) + ": " + on_smallest_screen(sentence));
   }
+  check_questions(protocol, protocol_file, words, faults);
   return faults;
 }
 

@@ -122,8 +122,13 @@ Measures smallest_screen(double text_size) {
 }
 
 std::vector<std::string> texts_that_do_not_fit(const ScreenTexts& texts, const Measures& measures) {
+  return texts_that_do_not_fit(texts, measures, states(texts));
+}
+
+std::vector<std::string> texts_that_do_not_fit(const ScreenTexts& texts, const Measures& measures,
+                                               const std::vector<ScreenState>& screens) {
   FitCheck fit(texts, measures);
-  for (const ScreenState& state : states(texts)) fit.check(state);
+  for (const ScreenState& state : screens) fit.check(state);
   return fit.found;
 }
 

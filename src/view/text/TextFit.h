@@ -18,6 +18,9 @@ Measures smallest_screen(double text_size = 1);
 /// its place. Characters that no installed font has count as wide as their replacement boxes.
 /// @return each sentence begins with the name of its page and ": "
 std::vector<std::string> texts_that_do_not_fit(const ScreenTexts& texts, const Measures& measures);
+/// Of these screens only.
+std::vector<std::string> texts_that_do_not_fit(const ScreenTexts& texts, const Measures& measures,
+                                               const std::vector<ScreenState>& screens);
 
 /// A control's text and the note below it, fitted to their areas.
 struct ControlWords {
