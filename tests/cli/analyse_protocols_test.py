@@ -48,6 +48,12 @@ def estimation(low, **trials):
             f"trials = {{ {counts} }}\nscale = \"number\"\nlow = {low}\nhigh = 500\n")
 
 
+def judgment(name, masses, cubes, question, **trials):
+    counts = ", ".join(f"{one} = {n}" for one, n in trials.items())
+    return (f'[[block]]\nkind = "judgment"\nname = "{name}"\nmasses_g = {masses}\ncubes = {cubes}\n'
+            f'trials = {{ {counts} }}\nquestion = "{question}"\n')
+
+
 PROTOCOLS = {
     "two cubes": sorting([100, 400], C1=3, C2=3),
     "four cubes": sorting([15, 100, 250, 800], C1=2, C2=2),
@@ -62,6 +68,10 @@ PROTOCOLS = {
     + comparison(constant("soft"), staircase("C2", 15, 175), staircase("soft", 800, 700)),
     "no comparison": introduction("C2") + sorting([15, 200, 800], C1=2, C2=2),
     "estimation": SOFT + estimation(0, C2=2, soft=2),
+    "judgments": SOFT
+    + judgment("pairs", [100, 100, 400], 2, "dissimilarity.heaviness", C2=1, soft=1)
+    + judgment("singles", [100, 400], 1, "borg_cr10.exertion", C2=2)
+    + judgment("words", [100, 800], 2, "own.which", C2=2),
     "no sorting": introduction("C2") + comparison(staircase("C2")),
 }
 # Charts and tables that name the conditions of a task, where there is something to show.
@@ -70,6 +80,15 @@ OF_COMPARISONS = {"choice_curves", "choices", "choices_by_level", "hits_and_fals
                   "sensitivity", "times_by_level", "thresholds_by_participant"}
 OF_STAIRCASES = {"jnd", "staircase_health", "staircases", "jnd_against_start", "staircase_trials"}
 OF_ESTIMATION = {"estimation", "estimation_exponent", "estimation_by_participant"}
+OF_JUDGMENTS = {"judgment", "judgment_by_participant"}
+WHICH = """[questionnaire.own]
+title = "Own"
+[[questionnaire.own.question]]
+key = "which"
+kind = "choice"
+text = "Which one is heavier?"
+choice = [{ value = "left", text = "Left" }, { value = "right", text = "Right" }]
+"""
 OF_PAPER = {"C1", "C2"}
 
 
@@ -79,6 +98,7 @@ class Protocols(SessionTest):
         folder.mkdir()
         protocol, db, out = folder / "p.toml", folder / "s.db", folder / "report"
         protocol.write_text(f'title = "{name}"\n' + PROTOCOLS[name])
+        (folder / "own.en.toml").write_text(WHICH)
         self.run_heft("simulate", protocol, "--participants", "3", "--seed", "11", "--db", db)
         self.run_heft("analyse", "--db", db, "--out", out)
         found = json.loads((out / "summary.json").read_text())
@@ -117,6 +137,11 @@ class Protocols(SessionTest):
             self.assertLess(0, row["low"], row)
             self.assertLess(row["low"], row["geometric_mean"])
             self.assertLess(row["geometric_mean"], row["high"])
+        answered = {(row["block"], row["condition"], row["masses_g"]): row["n_trials"]
+                    for row in found["judgment"] + found["judgment_choices"]}
+        self.assertEqual(sum(answered.values()), completed("judgment"))
+        self.assertEqual(sum(row["n_chosen"] for row in found["judgment_choices"]),
+                         sum(n for (block, *_), n in answered.items() if block == "words"))
         self.assertEqual(sum(row["n_trials"] for row in found["response_times"]),
                          sum(n for *_, n in trials))
         self.assertEqual(sum(row["n_attempts"] - row["n_void"] for row in
@@ -138,6 +163,7 @@ class Protocols(SessionTest):
                 self.assert_named(out, OF_SORTING, of("sorting"))
                 self.assert_named(out, OF_COMPARISONS, of("comparison"))
                 self.assert_named(out, OF_ESTIMATION, of("estimation"))
+                self.assert_named(out, OF_JUDGMENTS, of("judgment"))
                 self.assert_named(out, OF_STAIRCASES, {
                     at for task, at, staircase, _ in trials
                     if task == "comparison" and (staircase or "")[:1].isdigit()})
@@ -147,7 +173,9 @@ class Protocols(SessionTest):
 
     def test_the_first_screen_covers_each_task(self):
         expected = {"sorting": "Sorting: ", "comparison": "Comparisons: ",
-                    "introduction": "Introduction: ", "estimation": "Magnitude estimation: "}
+                    "introduction": "Introduction: ", "estimation": "Magnitude estimation: ",
+                    "judgment": "Judgment "}
+        (self.folder / "own.en.toml").write_text(WHICH)
         os.chdir(self.folder)
         for name, protocol in PROTOCOLS.items():
             for participants in (1, 6):

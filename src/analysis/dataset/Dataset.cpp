@@ -11,8 +11,10 @@
 #include "analysis/dataset/Jnd.h"
 #include "base/Error.h"
 #include "protocol/Protocol.h"
+#include "protocol/readers/Files.h"
 #include "record/export/Export.h"
 #include "tasks/Comparison.h"
+#include "tasks/Judgment.h"
 
 namespace heft {
 
@@ -154,6 +156,7 @@ struct Declared {
   ExclusionRules exclusion;
   std::map<std::string, published::Condition> published_conditions;
   std::set<std::string> forced;  // blocks of forced choices
+  std::map<std::string, FormQuestion> questions;
 };
 
 constexpr std::array counted_kinds{event_kind<Note>,         event_kind<Deviation>,
@@ -174,11 +177,10 @@ std::map<std::string, StaircaseRun> staircases_in(const Protocol& protocol) {
 }
 
 // --set may change a technique's parameters; the text stays as it was.
-Declared declared_in(const std::string& protocol_text,
-                     const std::vector<ProtocolSetting>& settings) {
-  Declared declared{staircases_without_jnd(protocol_text), {}, {}, {}, {}, {}};
+Declared declared_in(const std::string& protocol_text, const SessionConfig& config) {
+  Declared declared{staircases_without_jnd(protocol_text), {}, {}, {}, {}, {}, {}};
   try {
-    const Protocol protocol = parse_protocol(protocol_text, "protocol", settings);
+    Protocol protocol = parse_protocol(protocol_text, "protocol", config.settings);
     if (protocol.analysis.declares_any()) declared.plan = protocol.analysis;
     declared.exclusion = protocol.exclusion;
     declared.staircases = staircases_in(protocol);
@@ -187,12 +189,16 @@ Declared declared_in(const std::string& protocol_text,
       if (const auto* comparison = block_as<Comparison::Block>(block);
           comparison && comparison->is_forced())
         declared.forced.insert(comparison->name);
+    take_questions(protocol, config.texts.text, config.texts.path);
+    for (const Block& block : protocol.blocks)
+      if (const auto* judgment = block_as<Judgment::Block>(block); judgment && judgment->question)
+        declared.questions[judgment->name] = *judgment->question;
   } catch (const Error&) {
   }
   return declared;
 }
 
-/// Protocols are read once, however many sessions ran them with the same settings.
+/// Protocols are read once, however many sessions ran them with the same settings and texts.
 using DeclaredByText = std::map<std::pair<std::string, std::string>, Declared>;
 
 SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& declared_by_text) {
@@ -200,15 +206,16 @@ SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& 
                                                  log.reversals(id), log.estimates(id)});
   data.setups = log.setups(id);
   const std::string& protocol_text = data.session.header.protocol_text;
-  const auto settings =
-      data.setups.empty() ? std::vector<ProtocolSetting>{} : data.setups.front().setup.settings;
-  const auto [found, is_new] = declared_by_text.try_emplace({protocol_text, to_text(settings)});
-  if (is_new) found->second = declared_in(protocol_text, settings);
+  const SessionConfig config = data.setups.empty() ? SessionConfig{} : data.setups.front().setup;
+  const auto [found, is_new] = declared_by_text.try_emplace(
+      {protocol_text, to_text(config.settings) + '\n' + config.texts.sha256});
+  if (is_new) found->second = declared_in(protocol_text, config);
   data.without_jnd = found->second.without_jnd;
   data.staircases = found->second.staircases;
   data.plan = found->second.plan;
   data.exclusion = found->second.exclusion;
   data.published_conditions = found->second.published_conditions;
+  data.questions = found->second.questions;
   const std::vector<LoggedEvent> events = log.events(id, counted_kinds);
   data.frames = log.frame_counts(id);
   for (Attempt& attempt : data.attempts)

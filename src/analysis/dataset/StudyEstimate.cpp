@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/math/Quantiles.h"
 
@@ -81,6 +82,30 @@ StudyEstimate own_share(const Measure& measure, const std::string& participant,
   own.n_trials = tally.n_trials;
   own.n_hits = tally.n_hits;
   return own;
+}
+
+StudyEstimate mean_over_people(const std::vector<const StudyEstimate*>& people, bool of_logs) {
+  StudyEstimate estimate = *people.front();
+  std::vector<double> values;
+  std::string why;
+  estimate.n_trials = 0;
+  for (const StudyEstimate* own : people) {
+    estimate.n_trials += own->n_trials;
+    if (own->value) values.push_back(of_logs ? std::log(*own->value) : *own->value);
+    if (!own->why.empty()) why = own->why;
+  }
+  estimate.participant.clear();
+  estimate.value = mean(values);
+  estimate.set(student_t_interval(values));
+  if (!of_logs) estimate.sd = sample_sd(values);
+  for (auto* figure : {&estimate.value, &estimate.low, &estimate.high})
+    if (of_logs && *figure) *figure = std::exp(**figure);
+  estimate.n = static_cast<int>(values.size());
+  estimate.method = "Student's t";
+  if (values.size() < people.size())
+    estimate.why = fmt::format("{} of {} participants have none: {}", people.size() - values.size(),
+                               people.size(), why);
+  return estimate;
 }
 
 }  // namespace heft

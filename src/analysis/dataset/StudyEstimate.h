@@ -98,4 +98,10 @@ StudyEstimate rate_estimate(const Measure& measure, const Rate& rate);
 /// One participant's share of trials in percent.
 StudyEstimate own_share(const Measure& measure, const std::string& participant, const Tally& tally);
 
+/// The mean over the participants who have a value, with Student's t interval; how many have none,
+/// and why.
+/// @param people the same figure of each, at least one
+/// @param of_logs geometric: of logarithms; without SD
+StudyEstimate mean_over_people(const std::vector<const StudyEstimate*>& people, bool of_logs);
+
 }  // namespace heft

@@ -84,32 +84,6 @@ struct Numbers {
   }
 };
 
-// The mean over the participants who have a value, of logarithms where it is geometric.
-StudyEstimate mean_over_people(const std::vector<const StudyEstimate*>& people) {
-  StudyEstimate estimate = *people.front();
-  const bool of_logs = estimate.measure == &geometric_mean;
-  std::vector<double> values;
-  std::string why;
-  estimate.n_trials = 0;
-  for (const StudyEstimate* own : people) {
-    estimate.n_trials += own->n_trials;
-    if (own->value) values.push_back(of_logs ? std::log(*own->value) : *own->value);
-    if (!own->why.empty()) why = own->why;
-  }
-  estimate.participant.clear();
-  estimate.value = mean(values);
-  estimate.set(student_t_interval(values));
-  if (!of_logs) estimate.sd = sample_sd(values);
-  for (auto* figure : {&estimate.value, &estimate.low, &estimate.high})
-    if (of_logs && *figure) *figure = std::exp(**figure);
-  estimate.n = static_cast<int>(values.size());
-  estimate.method = "Student's t";
-  if (values.size() < people.size())
-    estimate.why = fmt::format("{} of {} participants have none: {}", people.size() - values.size(),
-                               people.size(), why);
-  return estimate;
-}
-
 StudyEstimate sum_over_people(const std::vector<const StudyEstimate*>& people) {
   StudyEstimate sum = *people.front();
   sum.participant.clear();
@@ -127,7 +101,7 @@ class EstimationSection final : public Section {
     for (const Attempt& attempt : data.attempts) {
       const TrialRow& trial = attempt.trial;
       if (!attempt.completed() || !trial.value || !std::isfinite(*trial.value) ||
-          trial.plan.is_practice || attempt.cubes.size() != 1)
+          trial.plan.is_practice || trial.plan.task != "estimation" || attempt.cubes.size() != 1)
         continue;
       const CubeRow& shown = attempt.cubes.front();
       const CubeKind cube{shown.mass_g, shown.table_friction};
@@ -194,8 +168,10 @@ class EstimationSection final : public Section {
               one.measure->name}]
           .push_back(&one);
     for (const auto& [key, people] : groups)
-      summary.estimates.push_back(people.front()->measure == &left_out ? sum_over_people(people)
-                                                                       : mean_over_people(people));
+      summary.estimates.push_back(
+          people.front()->measure == &left_out
+              ? sum_over_people(people)
+              : mean_over_people(people, people.front()->measure == &geometric_mean));
   }
 
   std::vector<std::string> findings(const Summary& summary) const override {

@@ -55,6 +55,15 @@ std::string in_words(const Estimation::Block& block) {
   return text;
 }
 
+std::string in_words(const Judgment::Block& block) {
+  const int n = block.most_cubes();
+  return fmt::format(
+      "They answered a question ({}) about {} of {} g in each trial ({} for each {}, in random "
+      "order).",
+      block.asks, n == 1 ? "one cube" : fmt::format("{} cubes", n), listed_g(block.masses_g),
+      trials_by_technique(block.trials, ""), n == 1 ? "mass" : "set of cubes");
+}
+
 // Of up-down staircases with one rule: all but reference, start and steps.
 std::string rule_of(const UpDownConfig& rule, const Comparison::Block& block) {
   const bool correct = block.positive_answer == PositiveAnswer::correct_choice;
@@ -163,6 +172,7 @@ struct InWords {
     if (const auto* introduction = block.as<Introduction::Block>()) return in_words(*introduction);
     if (const auto* sorting = block.as<Sorting::Block>()) return in_words(*sorting);
     if (const auto* estimation = block.as<Estimation::Block>()) return in_words(*estimation);
+    if (const auto* judgment = block.as<Judgment::Block>()) return in_words(*judgment);
     if (const auto* comparison = block.as<Comparison::Block>())
       return in_words(*comparison, citations);
     return fmt::format("Task \"{}\": {}.", block.name(), block.task().about);

@@ -1,0 +1,253 @@
+// Judgments: the answers to the question of a block, by the cubes that were shown. Numbers and
+// points of scales have means, choices between words have shares.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "analysis/measures/Section.h"
+#include "analysis/report/Notes.h"
+
+namespace heft {
+
+namespace {
+constexpr Measure mean_answer{
+    "judgment_mean", "", "mean answer",
+    "answer to the question of a judgment: mean over participants of each one's mean, Student's t "
+    "interval; where the question takes only numbers above 0, geometric means, with the interval "
+    "on "
+    "logarithms"};
+constexpr Measure share{"judgment_share", "%", "share of answers",
+                        "share of judgments with this answer, of a question with choices; interval "
+                        "over participants, of whom one with more trials counts more"};
+
+using Cube = std::pair<double, std::optional<double>>;  // mass and own friction
+
+struct Shown {
+  std::string block, condition;
+  std::vector<Cube> cubes;  // from light to heavy
+  auto operator<=>(const Shown&) const = default;
+};
+
+// "100, 200", with their own friction "100 (0.2), 200 (0.8)"
+Coordinate coordinate_of(const std::vector<Cube>& cubes) {
+  std::string text;
+  for (const auto& [mass_g, friction] : cubes) {
+    text += fmt::format("{}{:g}", text.empty() ? "" : ", ", mass_g);
+    if (friction) text += fmt::format(" ({:g})", *friction);
+  }
+  const bool is_one = cubes.size() == 1 && !cubes.front().second;
+  return {"masses_g", text, is_one ? std::optional(cubes.front().first) : std::nullopt};
+}
+
+// The answers to a question by participant.
+struct Answers {
+  std::optional<FormQuestion> question;  // none: the log's texts lack it
+  bool are_chosen = false;               // places among the choices
+  std::map<std::string, std::vector<double>> people;
+
+  bool has_logarithms() const {
+    return question && question->kind == QuestionKind::number && question->least > 0;
+  }
+  // In the question's order; those that were given if that is unknown.
+  std::vector<std::pair<double, std::string>> choices() const {
+    std::vector<std::pair<double, std::string>> all;
+    if (question) {
+      for (const AnswerChoice& choice : question->choices)
+        all.emplace_back(static_cast<double>(all.size()) + 1, choice.value);
+      return all;
+    }
+    std::set<double> given;
+    for (const auto& [participant, values] : people) given.insert(values.begin(), values.end());
+    for (const double value : given) all.emplace_back(value, fmt::format("{:g}", value));
+    return all;
+  }
+};
+
+std::string in_brackets(const StudyEstimate& one) {
+  return one.low ? fmt::format(" [{:.3g}, {:.3g}]", *one.low, *one.high) : "";
+}
+
+class JudgmentSection final : public Section {
+ public:
+  void add(const SessionData& data) override {
+    for (const Attempt& attempt : data.attempts) {
+      const TrialRow& trial = attempt.trial;
+      if (!attempt.completed() || trial.plan.task != "judgment" || !trial.value ||
+          trial.plan.is_practice)
+        continue;
+      Shown shown{trial.plan.block, trial.plan.condition, {}};
+      for (const CubeRow& cube : attempt.cubes)
+        shown.cubes.emplace_back(cube.mass_g, cube.table_friction);
+      std::ranges::sort(shown.cubes);
+      Answers& answers = by_shown_[shown];
+      if (const auto asked = data.questions.find(shown.block); asked != data.questions.end())
+        answers.question = asked->second;
+      answers.are_chosen = trial.outcome == "chosen";
+      answers.people[data.participant()].push_back(*trial.value);
+    }
+  }
+
+  Estimates of_participants(const Summary&) const override {
+    Estimates all;
+    for (const auto& [shown, answers] : by_shown_)
+      for (const auto& [participant, values] : answers.people) {
+        if (answers.are_chosen) {
+          for (const auto& [value, word] : answers.choices()) {
+            const auto n = static_cast<int>(std::ranges::count(values, value));
+            put_at(all, shown, answers,
+                   own_share(share, participant, {n, static_cast<int>(values.size())}), &word);
+          }
+          continue;
+        }
+        StudyEstimate own{&mean_answer};
+        own.participant = participant;
+        own.value = own_mean(answers, values);
+        own.n = 1;
+        own.n_trials = static_cast<int>(values.size());
+        put_at(all, shown, answers, std::move(own));
+      }
+    return all;
+  }
+
+  void put(Summary& summary) override {
+    for (const auto& [shown, answers] : by_shown_)
+      if (answers.are_chosen)
+        put_shares(summary.estimates, shown, answers);
+      else
+        put_mean(summary.estimates, shown, answers);
+  }
+
+  std::vector<std::string> findings(const Summary& summary) const override {
+    std::map<std::string, std::vector<std::string>> parts;  // by block
+    for (const StudyEstimate& one : summary.estimates) {
+      if ((one.measure != &mean_answer && one.measure != &share) || !one.value) continue;
+      const std::string what =
+          one.measure == &share ? fmt::format("{:.0f} % \"{}\"", *one.value, one.text_at("answer"))
+                                : fmt::format("{:.3g}", *one.value);
+      parts[one.text_at("block")].push_back(fmt::format("{}{} at {} g {}", what, in_brackets(one),
+                                                        one.text_at("masses_g"),
+                                                        in_condition(summary, one.condition)));
+    }
+    std::vector<std::string> sentences;
+    for (const auto& [block, of_block] : parts)
+      sentences.push_back(fmt::format("Judgment \"{}\": {}.", block, some_of(of_block, 4)));
+    return sentences;
+  }
+
+  std::vector<EstimateTable> tables() const override {
+    const std::vector<EstimateColumn> place{
+        key_column("block", "block"), key_column("question", "question"),
+        key_column("condition", "condition"), key_column("masses_g", "masses g")};
+    EstimateTable means{"judgment",
+                        "Judgments: mean answers by cubes",
+                        place,
+                        "over participants, each of whom counts once; geometric where the question "
+                        "takes only numbers above 0",
+                        TablePlace::results,
+                        "judgment[]"};
+    for (EstimateColumn& one :
+         std::vector{column(mean_answer, Field::n, "n_participants", "n"),
+                     column(mean_answer, Field::n_trials, "n_trials", "trials"),
+                     column(mean_answer, Field::value, "mean", "mean", 2),
+                     column(mean_answer, Field::sd, "sd", "SD", 2)})
+      means.columns.push_back(std::move(one));
+    add_interval(means.columns, mean_answer, "low", "high", 2);
+    means.columns.push_back(column(mean_answer, Field::method, "method", "mean and interval"));
+
+    EstimateTable shares{"judgment_choices",
+                         "Judgments: chosen answers by cubes",
+                         place,
+                         "of all trials; 95 % intervals over participants",
+                         TablePlace::results,
+                         "judgment_choices[]"};
+    shares.columns.push_back(key_column("answer", "answer"));
+    for (EstimateColumn& one : std::vector{column(share, Field::n, "n_participants", "n"),
+                                           column(share, Field::n_trials, "n_trials", "trials"),
+                                           column(share, Field::n_hits, "n_chosen", "chosen"),
+                                           column(share, Field::value, "percent", "%")})
+      shares.columns.push_back(std::move(one));
+    add_interval(shares.columns, share, "low_percent", "high_percent");
+
+    EstimateTable people{"judgment_by_participant", "Each participant's mean answers", place, "",
+                         TablePlace::csv};
+    people.participants = true;
+    people.columns.push_back(key_column("participant", "participant"));
+    people.columns.push_back(column(mean_answer, Field::value, "mean", "mean", 2));
+    people.columns.push_back(column(mean_answer, Field::n_trials, "n_trials", "trials"));
+    return {means, shares, people};
+  }
+
+  std::vector<ChartSpec> charts() const override {
+    return {{.name = "judgment",
+             .title = "Judgments: mean answers by cubes, 95 % intervals",
+             .caption = "Mean over participants of the answers to the question about these cubes, "
+                        "geometric where it takes only numbers above 0; small points: each "
+                        "participant.",
+             .csv = "judgment.csv",
+             .importance = 39,
+             .series = {{&mean_answer}},
+             .x = "masses_g",
+             .split = {"condition"},
+             .panels = {"block"},
+             .participants = true,
+             .x_label = "masses (g)",
+             .y_label = "answer"}};
+  }
+
+ private:
+  static std::optional<double> own_mean(const Answers& answers, std::vector<double> values) {
+    if (!answers.has_logarithms()) return mean(values);
+    for (double& value : values) value = std::log(value);
+    const auto mean_log = mean(values);
+    return mean_log ? std::optional(std::exp(*mean_log)) : std::nullopt;
+  }
+
+  static void put_at(Estimates& all, const Shown& shown, const Answers& answers,
+                     StudyEstimate estimate, const std::string* answer = nullptr) {
+    estimate.task = "judgment";
+    estimate.condition = shown.condition;
+    estimate.by = {{"block", shown.block},
+                   {"question", answers.question ? answers.question->key : ""},
+                   coordinate_of(shown.cubes)};
+    if (answer) estimate.by.push_back({"answer", *answer});
+    all.push_back(std::move(estimate));
+  }
+
+  static void put_shares(Estimates& all, const Shown& shown, const Answers& answers) {
+    for (const auto& [value, word] : answers.choices()) {
+      Tallies tallies;
+      for (const auto& [participant, values] : answers.people)
+        tallies[participant] = {static_cast<int>(std::ranges::count(values, value)),
+                                static_cast<int>(values.size())};
+      put_at(all, shown, answers, rate_estimate(share, rate_of(tallies)), &word);
+    }
+  }
+
+  static void put_mean(Estimates& all, const Shown& shown, const Answers& answers) {
+    Estimates people;
+    std::vector<const StudyEstimate*> each;
+    for (const auto& [participant, values] : answers.people) {
+      StudyEstimate& own = people.emplace_back(StudyEstimate{&mean_answer});
+      own.value = own_mean(answers, values);
+      own.n_trials = static_cast<int>(values.size());
+      each.push_back(&own);
+    }
+    StudyEstimate over_people = mean_over_people(each, answers.has_logarithms());
+    over_people.method =
+        answers.has_logarithms() ? "geometric, Student's t" : "arithmetic, Student's t";
+    put_at(all, shown, answers, std::move(over_people));
+  }
+
+  std::map<Shown, Answers> by_shown_;
+};
+}  // namespace
+
+std::shared_ptr<Section> judgment_section() {
+  return std::make_shared<JudgmentSection>();
+}
+
+}  // namespace heft
