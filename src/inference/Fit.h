@@ -62,6 +62,14 @@ Fit fit_psychometric(const AnswersByLevel& answers, const FitOptions& options);
 /// others stay where they exist.
 Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options);
 
+/// Of "same" (first) and "different" answers to two stimuli that differ by a level of either sign:
+/// the indecision model without bias, where both choices count as "different" (the differencing
+/// model of same-different tasks: Macmillan & Creelman 2005, ch. 9). sensitivity, indecision,
+/// lapse, and threshold_75_g, that of a forced choice, on which the criterion has no influence.
+/// @param lapse rate of answers that are a coin
+/// Identifiable: as fit_indecision.
+Fit fit_same_different(const AnswersByLevel& answers, double lapse);
+
 /// Minimum number of trials: chi-square intervals do not hold for fewer.
 inline constexpr double least_trials_to_fit = 10;
 

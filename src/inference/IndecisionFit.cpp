@@ -305,4 +305,70 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
   return fit;
 }
 
+namespace {
+enum SameDifferent : std::size_t { same, different };
+
+// Sensitivity and indecision at levels in units of the largest.
+double log_likelihood_of_same(const AnswersByLevel& answers, double unit, double lapse,
+                              const Parameters& at, Derivatives* derivatives) {
+  double sum = 0;
+  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
+  for (const auto& [level, n] : answers) {
+    const double x = level / unit, up = at[0] * x - at[1], down = -at[0] * x - at[1];
+    const double above = (1 - lapse) * normal_density(up);
+    const double below = (1 - lapse) * normal_density(down);
+    const double p = lapse / 2 + (1 - lapse) * (normal_cdf(up) + normal_cdf(down));
+    const LogShare yes = log_share(n[different], p), no = log_share(n[same], 1 - p);
+    sum += yes.value + no.value;
+    if (!derivatives) continue;
+    const Eigen::Vector2d slope(x * (above - below), -above - below);
+    const double bend = -up * above - down * below, mixed = x * (up * above - down * below);
+    Eigen::Matrix2d bends;
+    bends << x * x * bend, mixed, mixed, bend;
+    gradient += (yes.slope - no.slope) * slope;
+    hessian += (yes.bend + no.bend) * slope * slope.transpose() + (yes.slope - no.slope) * bends;
+  }
+  if (derivatives) *derivatives = {gradient, hessian};
+  return sum;
+}
+
+// All levels with the same share of answers.
+double log_likelihood_without_sensitivity(const AnswersByLevel& answers, double lapse) {
+  const auto n = totals(answers);
+  const double share =
+      std::clamp(n[different] / (n[same] + n[different]), lapse / 2, 1 - lapse / 2);
+  return log_share(n[different], share).value + log_share(n[same], 1 - share).value;
+}
+}  // namespace
+
+Fit fit_same_different(const AnswersByLevel& answers, double lapse) {
+  Fit fit{{{"sensitivity"}, {"indecision"}, {"lapse", lapse, {}, {}, {}, true}, {"threshold_75_g"}},
+          std::nullopt,
+          trials_in(answers),
+          answers.size(),
+          too_little(answers)};
+  const double unit = largest_level_of(answers);
+  if (!fit.why.empty() || unit == 0) return fit;
+  std::vector<Parameters> starts;
+  for (const double steep : {0.5, 2.0, 6.0, 20.0})
+    for (const double wide : {0.3, 1.0, 3.0}) starts.emplace_back(Eigen::Vector2d(steep, wide));
+  const LikelihoodFit found = maximize_likelihood(
+      [&](const Parameters& at, Derivatives* derivatives) {
+        return log_likelihood_of_same(answers, unit, lapse, at, derivatives);
+      },
+      {{0, infinity}, {0, infinity}}, {starts});
+  fit.log_likelihood = found.log_likelihood;
+  for (std::size_t i = 0; i < 2; ++i)
+    fit.parameters[i] =
+        parameter(indecision_names[i], found.parameters[i], i == 0 ? unit : 1, false);
+  FittedParameter& s = fit.parameters[0];
+  // The likelihood is even in the sensitivity: at 0 it has no slope, and this decides.
+  if (found.log_likelihood - log_likelihood_without_sensitivity(answers, lapse) < interval_drop)
+    s.low = 0;
+  fit.why = why_no_threshold({s.low, s.high, !s.value && s.low}, reach_of(answers));
+  if (fit.identifiable()) fit.parameters[3] = threshold(s);
+  return fit;
+}
+
 }  // namespace heft

@@ -454,5 +454,49 @@ RC_GTEST_PROP(Fit, OfAnyAnswersIsConsistent, ()) {
   }
 }
 
+// The shares of "different" that the model gives: whatever the criterion, one sensitivity.
+TEST(SameDifferentFit, FindsTheSensitivityOfAnyCriterion) {
+  for (const double indecision : {0.3, 1.5, 2.5}) {
+    AnswersByLevel answers;
+    for (const double level_g : {0.0, 50.0, 100.0, -200.0, 300.0}) {
+      const IndecisionShares shares = indecision_shares({0.01, indecision, 0, 0}, level_g);
+      const double different = 0.01 + 0.98 * (1 - shares.none);
+      answers[level_g] = {1000 * (1 - different), 1000 * different, 0};
+    }
+    const Fit fit = fit_same_different(answers, 0.02);
+    ASSERT_TRUE(fit.identifiable()) << fit.why;
+    EXPECT_NEAR(*fit.parameter("sensitivity").value, 0.01, 1e-6) << indecision;
+    EXPECT_NEAR(*fit.parameter("indecision").value, indecision, 1e-4);
+    EXPECT_NEAR(*fit.parameter("threshold_75_g").value, 67.45, 0.01);
+  }
+}
+
+TEST(SameDifferentFit, HasNoThresholdWithoutInformation) {
+  const auto why = [](const AnswersByLevel& answers) {
+    return fit_same_different(answers, 0.02).why;
+  };
+  EXPECT_FALSE(why({}).empty());
+  EXPECT_FALSE(why({{100, {10, 20, 0}}}).empty()) << "one level";
+  EXPECT_FALSE(why({{0, {40, 0, 0}}, {100, {40, 0, 0}}}).empty()) << "always same";
+  EXPECT_FALSE(why({{0, {0, 40, 0}}, {100, {0, 40, 0}}}).empty()) << "always different";
+  EXPECT_FALSE(why({{0, {40, 0, 0}}, {100, {0, 40, 0}}}).empty()) << "complete separation";
+  EXPECT_FALSE(why({{0, {10, 30, 0}}, {100, {20, 20, 0}}, {200, {30, 10, 0}}}).empty())
+      << "larger differences were answered by same";
+}
+
+// Of coins at most 5 % seem to have a threshold.
+TEST(SameDifferentFit, OfCoinsIsNotIdentifiable) {
+  RandomStream random(3, "coins");
+  int n_identifiable = 0;
+  constexpr int n = 200;
+  for (int i = 0; i < n; ++i) {
+    AnswersByLevel answers;
+    for (const double level_g : {0.0, 60.0, 120.0, 180.0})
+      for (int trial = 0; trial < 15; ++trial) answers[level_g][random.coin(0.5) ? 1 : 0] += 1;
+    n_identifiable += fit_same_different(answers, 0.02).identifiable();
+  }
+  EXPECT_LE(n_identifiable, n / 20);
+}
+
 }  // namespace
 }  // namespace heft
