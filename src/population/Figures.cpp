@@ -74,7 +74,7 @@ class FigureSink final : public EventSink {
     if (trial.plan.task != "comparison") return;
     if (trial.plan.reference_g && !trial.plan.staircase.empty())
       reference_of_[trial.plan.staircase] = *trial.plan.reference_g;
-    if (trial.plan.is_catch) return false_alarms_.add(trial.chosen_slot.has_value());
+    if (trial.plan.is_catch) return false_alarms_.add(trial.outcome == "difference");
     if (trial.choice_correct) wrong_choices_.add(!*trial.choice_correct);
   }
 

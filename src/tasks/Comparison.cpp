@@ -90,10 +90,12 @@ std::string catch_text(const Comparison::Block& block) {
 }  // namespace
 
 ConfigMistakes Comparison::Block::check() const {
-  if (is_forced() && positive_answer != PositiveAnswer::any_choice)
+  if (!has_three_answers() && positive_answer != PositiveAnswer::any_choice)
     return {{{"positive_answer"},
-             R"(positive_answer together with answers = "heavier")",
-             "without it: in a forced choice choosing the comparison is the positive answer"}};
+             fmt::format(R"(positive_answer together with answers = "{}")", name_of(answers)),
+             is_forced()
+                 ? "without it: in a forced choice choosing the comparison is the positive answer"
+                 : "without it: \"different\" is the positive answer"}};
   if (catch_trials.empty() || catch_fraction == 0) return {};
   return {{{"catch_fraction"},
            "catch_fraction together with catch_trials",
@@ -108,8 +110,10 @@ std::vector<std::pair<std::string, std::string>> Comparison::Block::choices() co
       {"interleaving", order},
       {"catch trials", catch_text(*this)},
       {"sides of the reference", std::string(name_of(sides))},
-      {"moves a staircase down",
-       is_forced() ? "choice of the comparison" : std::string(name_of(positive_answer))}};
+      {"moves a staircase down", is_forced()           ? "choice of the comparison"
+                                 : has_three_answers() ? std::string(name_of(positive_answer))
+                                                       : "answer \"different\""}};
+  if (!is_forced() && !has_three_answers()) choices.emplace_back("answers", "same or different");
   if (is_forced()) choices.emplace_back("answers", "forced choice, without \"no difference\"");
   for (const ReferenceStaircase& reference : staircases) {
     const std::string its_name = "staircase " + reference.staircase.name();
@@ -226,6 +230,7 @@ void Comparison::Run::respond(std::size_t index, const TrialRow& row, Changes& c
 
 Response Comparison::response_in(const TrialRow& row, PositiveAnswer positive_answer,
                                  ComparisonAnswers answers) {
+  if (answers == ComparisonAnswers::same_different) return {row.outcome == "difference", {}};
   if (row.outcome != "difference") return response_of(Choice::none);
   Response response = response_of(row.chosen_slot == row.plan.reference_slot ? Choice::reference
                                                                              : Choice::comparison);
@@ -243,41 +248,49 @@ std::optional<std::string> Comparison::Run::survivor() const {
 }
 
 std::optional<std::string> Comparison::Trial::refusal(const Action& action) const {
-  if (is_forced() && !action.slot) return "a forced choice: one of the two cubes is the answer";
+  if (answers_ == ComparisonAnswers::heavier && !action.slot)
+    return "a forced choice: one of the two cubes is the answer";
+  if (answers_ == ComparisonAnswers::same_different && action.slot)
+    return "the answer is whether the cubes are the same, not a cube";
+  if (answers_ == ComparisonAnswers::heavier_or_none && action.kind == "different")
+    return "the answer is a cube or no difference";
   return std::nullopt;
 }
 
 void Comparison::Trial::take(const Action& action) {
   if (action.slot) choose(*action.slot);
-  result_.outcome = action.slot ? "difference" : "no_difference";
+  result_.outcome = action.kind == "no_difference" ? "no_difference" : "difference";
 }
 
 std::string Comparison::Trial::answer() const {
-  if (!result_.chosen_slot) return "none";
+  if (!result_.chosen_slot) return result_.outcome == "difference" ? "different" : "none";
   return result_.chosen_slot == plan_.reference_slot ? "reference" : "comparison";
 }
 
-// A lapse: one of the n cubes or no difference, equally likely. A forced choice has no criterion.
+// A lapse: all answers are equally likely. A forced choice has no criterion.
 Answer Comparison::simulated(const Offer& offer, const Percepts& percepts, RandomStream& stream) {
   if (offer.answers == ComparisonAnswers::heavier)
     return {{{"select", heaviest_slot(percepts.remembered_mm, {})}}};
-  const bool different =
-      percepts.lapse ? stream.below(percepts.remembered_mm.size() + 1) > 0 : percepts.differ;
+  const bool names_cube = offer.answers == ComparisonAnswers::heavier_or_none;
+  const std::size_t n_different = names_cube ? percepts.remembered_mm.size() : 1;
+  const bool different = percepts.lapse ? stream.below(n_different + 1) > 0 : percepts.differ;
   if (!different) return {{{"no_difference"}}};
+  if (!names_cube) return {{{"different"}}};
   return {{{"select", heaviest_slot(percepts.remembered_mm, {})}}};
 }
 
 Answer Comparison::blind(const Offer& offer, const WithoutPercepts& known, RandomStream& stream) {
-  if (!known.differ && offer.answers == ComparisonAnswers::heavier_or_none)
-    return {{{"no_difference"}}};
+  if (!known.differ && offer.answers != ComparisonAnswers::heavier) return {{{"no_difference"}}};
+  if (offer.answers == ComparisonAnswers::same_different) return {{{"different"}}};
   const auto n = static_cast<std::uint64_t>(known.n_slots);
   return {{{"select", 1 + static_cast<int>(stream.below(n))}}};
 }
 
 std::vector<ScreenState> Comparison::fullest_screens() {
-  ScreenState screen{.n_slots = 2};
+  ScreenState screen{.n_slots = 2}, same_different = screen;
   screen.offer = Offer{};
-  return {screen};
+  same_different.offer = Offer{ComparisonAnswers::same_different};
+  return {screen, same_different};
 }
 
 }  // namespace heft

@@ -1,8 +1,9 @@
 // Comparison task (paper, 4.2): which of two cubes, a reference and a comparison, is heavier, or no
-// difference; in a forced choice (answers = "heavier") there is no such third answer. Levels come
-// from interleaved staircases. Catch trials have a difference of 0 and update no staircase; a fixed
-// number of them is drawn in shuffled blocks, so that each participant gets the planned number for
-// each reference, spread over the session.
+// difference; in a forced choice (answers = "heavier") there is no such third answer; or only
+// whether they are the same or different (answers = "same_different"). Levels come from interleaved
+// staircases. Catch trials have a difference of 0 and update no staircase; a fixed number of them
+// is drawn in shuffled blocks, so that each participant gets the planned number for each reference,
+// spread over the session.
 #pragma once
 
 #include <optional>
@@ -18,16 +19,19 @@
 
 namespace heft {
 
-/// What a participant may answer: the heavier cube or no difference (the paper), or always a cube.
+/// What a participant may answer: the heavier cube or no difference (the paper); always a cube; or
+/// whether the cubes are equally heavy, without a cube.
 ///
 /// The response of a forced choice to every procedure is "the comparison was chosen". For a
 /// comparison that is heavier this is a correct choice; for one that is lighter it is an incorrect
 /// one, so that levels of both signs make one psychometric function; at a difference of 0, where
-/// nothing is correct, it is a coin, as the side of the reference is.
-enum class ComparisonAnswers { heavier_or_none, heavier };
+/// nothing is correct, it is a coin, as the side of the reference is. That of a same-different task
+/// is "different", for levels of either sign.
+enum class ComparisonAnswers { heavier_or_none, heavier, same_different };
 template <>
 struct EnumNames<ComparisonAnswers> {
-  static constexpr std::array<std::string_view, 2> names{"heavier_or_none", "heavier"};
+  static constexpr std::array<std::string_view, 3> names{"heavier_or_none", "heavier",
+                                                         "same_different"};
 };
 
 /// Which answers are positive, that is, move the staircase down.
@@ -76,11 +80,15 @@ CatchTrials(Block&) -> CatchTrials<Block>;
 
 struct Comparison {
   static constexpr std::array actions{ActionSpec{.kind = "select", .slot = true},
-                                      ActionSpec{.kind = "no_difference"}};
+                                      ActionSpec{.kind = "no_difference"},
+                                      ActionSpec{.kind = "different"}};
   static constexpr std::array<std::string_view, 2> outcomes{"difference", "no_difference"};
-  static constexpr std::array<std::string_view, 1> wordings{name_of(ComparisonAnswers::heavier)};
+  static constexpr std::array wordings{Wording{name_of(ComparisonAnswers::heavier)},
+                                       Wording{name_of(ComparisonAnswers::same_different),
+                                               "question_same_different same different"}};
   static constexpr TaskDeclaration task{
       .name = "comparison",
+      .edition = 2,  // "different" was added
       .about = "Which of two cubes is heavier, or is there no difference",
       .actions = actions,
       .outcomes = outcomes,
@@ -125,7 +133,10 @@ struct Comparison {
     bool depends_on_answers() const;
     int most_cubes() const { return 2; }
     bool is_forced() const { return answers == ComparisonAnswers::heavier; }
-    std::string_view wording() const { return is_forced() ? wordings[0] : std::string_view(); }
+    bool has_three_answers() const { return answers == ComparisonAnswers::heavier_or_none; }
+    std::string_view wording() const {
+      return has_three_answers() ? std::string_view() : name_of(answers);
+    }
   };
   struct Offer {
     ComparisonAnswers answers = ComparisonAnswers::heavier_or_none;
@@ -160,13 +171,14 @@ struct Comparison {
     void show(ScreenState& screen) const override { screen.offer = Offer{answers_}; }
     std::string answer() const override;
     std::optional<int> n_answers() const override {
-      return plan_.n_slots() + (is_forced() ? 0 : 1);
+      return plan_.n_slots() + (answers_ == ComparisonAnswers::heavier_or_none ? 1 : 0);
     }
-    bool detects() const override { return !is_forced(); }
+    bool detects() const override { return answers_ != ComparisonAnswers::heavier; }
+    std::optional<bool> answered_different() const override {
+      return detects() ? std::optional(result_.outcome == "difference") : std::nullopt;
+    }
 
    private:
-    bool is_forced() const { return answers_ == ComparisonAnswers::heavier; }
-
     ComparisonAnswers answers_;
   };
 

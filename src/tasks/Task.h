@@ -26,6 +26,12 @@ struct ActionSpec {
   bool after_steps = false;
 };
 
+/// Another way to ask, by some of the task's blocks.
+struct Wording {
+  std::string_view name;        ///< its instructions are the key "text_NAME" of their page
+  std::string_view texts = {};  ///< further keys of the task's page of texts
+};
+
 struct TaskDeclaration {
   std::string_view name;
   int edition = 1;         ///< increased when the meaning of its words changes
@@ -35,8 +41,7 @@ struct TaskDeclaration {
   std::string_view texts = {};  ///< keys of its page of texts, separated by spaces
   double trial_s = 10;          ///< assumed duration of a trial; the paper reports none
   bool detects = false;         ///< whether an answer states if the cubes differ
-  /// Blocks that ask otherwise need other instructions: the key "text_NAME" of that page.
-  std::span<const std::string_view> wordings = {};
+  std::span<const Wording> wordings = {};
 
   /// @return null if the task has no such action
   constexpr const ActionSpec* action(std::string_view kind) const {

@@ -82,7 +82,7 @@ class TaskTrial {
   /// Whether its answers state if the cubes differ.
   virtual bool detects() const { return declaration_.detects; }
   /// Whether the answer of an ended trial is that the cubes differ; none: the task does not ask.
-  std::optional<bool> answered_different() const {
+  virtual std::optional<bool> answered_different() const {
     return detects() ? std::optional(result_.chosen_slot.has_value()) : std::nullopt;
   }
 

@@ -20,7 +20,7 @@ SessionData chooser(std::int64_t id, const char* participant, const Counts& coun
   for (const auto& [level_g, n] : counts)
     for (int i = 0; i < n.first + n.second; ++i) {
       Attempt& attempt = add_comparison(data, "constant", 200, level_g);
-      attempt.is_forced = true;
+      attempt.answers_offered = ComparisonAnswers::heavier;
       attempt.trial.plan.condition = "C2";
       attempt.trial.outcome = "difference";
       attempt.trial.chosen_slot = i < n.first ? 1 : 2;  // the reference is on the left
@@ -70,7 +70,7 @@ TEST(ForcedChoice, OfACoinHasNoThresholdButAReason) {
 TEST(ForcedChoice, StaysOutOfThreeWayComparisons) {
   const SessionData data = chooser(1, "a", both_signs);
   EXPECT_FALSE(data.attempts.front().is_usable_comparison());
-  EXPECT_TRUE(data.attempts.front().is_usable_forced_choice());
+  EXPECT_TRUE(data.attempts.front().is_usable_comparison(ComparisonAnswers::heavier));
   EXPECT_FALSE(find_estimate(summarized({data}).estimates, "sensitivity"));
 }
 

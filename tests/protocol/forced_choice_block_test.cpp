@@ -36,6 +36,46 @@ TEST(ForcedChoiceBlock, WithThreeAnswersLevelsBelowZeroAreRefused) {
   EXPECT_THROW(parse_protocol(text, "x.toml"), InvalidFile);
 }
 
+std::string same_different() {
+  return content_of(shipped_path("examples/same_different"));
+}
+
+TEST(SameDifferentBlock, OfTheExampleHasItsKeys) {
+  const Protocol protocol = parse_protocol(same_different(), "x.toml");
+  const auto& block = *block_as<Comparison::Block>(protocol.blocks.at(1));
+  EXPECT_EQ(block.answers, ComparisonAnswers::same_different);
+  EXPECT_EQ(block.wording(), "same_different");
+  EXPECT_EQ(block.expected_trials(), 24 + 4);
+}
+
+class BrokenSameDifferent : public testing::TestWithParam<Broken> {};
+
+TEST_P(BrokenSameDifferent, IsOneMistakeAtItsPlace) {
+  expect_broken(same_different(), GetParam(), [](auto& text) { parse_protocol(text, "x.toml"); });
+}
+
+const std::string constant_keys =
+    "kind = \"constant\"\nlevels = [-120, -60, 0, 60, 120, 180]\nn_per_level = 4\n";
+const std::vector<Broken> broken_same_different{
+    {"positive_answer",
+     {"answers = \"same_different\"",
+      "positive_answer = ^\"correct_choice\"\nanswers = \"same_different\""},
+     {"positive_answer together with answers = \"same_different\""}},
+    {"indecision",
+     {constant_keys,
+      "kind = \"psi\"\nfunction = ^\"indecision\"\nlevels = [50, 100]\nsensitivity = [0.01, 0.02]\n"
+      "indecision = [0, 1]\nbias = 0\nlapse = 0.02\nstop_trials = 10\n"},
+     {"indecision", "which cube is heavier"}},
+    {"lighter_comparison_of_a_staircase",
+     {constant_keys,
+      "kind = \"up_down\"\nstart = 100\nstep = 50\nfloor = ^-50\nstop_reversals = 4\n"
+      "stop_trials = 20\ndiscard_reversals = 1\n"},
+     {"floor is -50"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Each, BrokenSameDifferent, testing::ValuesIn(broken_same_different),
+                         name_of_broken);
+
 class BrokenForcedChoice : public testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenForcedChoice, IsOneMistakeAtItsPlace) {

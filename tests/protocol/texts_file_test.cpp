@@ -86,6 +86,32 @@ TEST(TextsFile, MayLackATaskExceptForItsProtocols) {
   }
 }
 
+// A text file that is older than a way to ask can be used for protocols that ask otherwise.
+TEST(TextsFile, MayLackAWordingExceptForItsProtocols) {
+  std::string text = content_of(texts_path("en"));
+  const auto begin = text.find("question_same_different");
+  text.erase(begin, text.find('\n', begin) - begin);
+  const ScreenTexts texts = parse_texts(text, "own.toml");
+  for (const ComparisonAnswers answers :
+       {ComparisonAnswers::heavier_or_none, ComparisonAnswers::heavier,
+        ComparisonAnswers::same_different}) {
+    SessionPlan plan;
+    Comparison::Block block;
+    block.answers = answers;
+    plan.blocks = {block};
+    if (answers != ComparisonAnswers::same_different) {
+      EXPECT_NO_THROW(require_words(texts, plan, "own.toml"));
+      continue;
+    }
+    try {
+      require_words(texts, plan, "own.toml");
+      ADD_FAILURE();
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("[trial_comparison] question_same_different"));
+    }
+  }
+}
+
 class BrokenTexts : public testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenTexts, IsOneMistakeAtItsPlace) {

@@ -123,7 +123,16 @@ TEST_F(SchemaRules, WordsComeWithFirstTrialAndForeignOnesAreReported) {
   EXPECT_EQ(entries("true"), 4);
   EXPECT_TRUE(schema::foreign_objects(*database_).empty());
   schema::add_words(*database_, "comparison");
-  EXPECT_EQ(entries("task = 'comparison'"), 2);
+  EXPECT_EQ(entries("task = 'comparison'"), 3);
+  EXPECT_TRUE(schema::foreign_objects(*database_).empty());
+  // A log of the edition without "different" gets the word with its next trial.
+  database_->exec("DELETE FROM list_action WHERE name = 'different'");
+  EXPECT_FALSE(schema::foreign_objects(*database_).empty());
+  for (const char* list : {"list_action", "list_outcome", "list_task"})
+    database_->exec(fmt::format("UPDATE {} SET edition = 1 WHERE task = 'comparison'", list));
+  EXPECT_TRUE(schema::foreign_objects(*database_).empty());
+  schema::add_words(*database_, "comparison");
+  EXPECT_EQ(entries("name = 'different' AND edition = 2"), 1);
   EXPECT_TRUE(schema::foreign_objects(*database_).empty());
   for (const char* change : {"INSERT INTO list_action VALUES ('shout', 'sorting', 1)",
                              "UPDATE list_label SET edition = 2 WHERE name = '1'",

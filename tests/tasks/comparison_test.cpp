@@ -133,6 +133,62 @@ TEST(ComparisonForcedChoice, LevelsOfBothSignsFollowTheResponses) {
   EXPECT_EQ(first, (std::vector<double>{40, 24, 8, -8, 8, -8}));
 }
 
+TEST(ComparisonSameDifferent, GivesDifferentToProcedureWithoutCube) {
+  for (const bool different : {false, true}) {
+    const Response response =
+        Comparison::response_in(row_of(different ? "difference" : "no_difference", {}, {}),
+                                PositiveAnswer::any_choice, ComparisonAnswers::same_different);
+    EXPECT_EQ(response.positive, different);
+    EXPECT_FALSE(response.choice);
+  }
+}
+
+TEST(ComparisonSameDifferent, TakesSameAndDifferentButNoCube) {
+  TrialPlan plan;
+  plan.masses_g = {15, 115};
+  plan.reference_slot = 1;
+  Comparison::Block block;
+  EXPECT_TRUE(Comparison::Trial(block, plan, 0).refusal({"different"})) << "with three answers";
+  block.answers = ComparisonAnswers::heavier;
+  EXPECT_TRUE(Comparison::Trial(block, plan, 0).refusal({"different"})) << "in a forced choice";
+  block.answers = ComparisonAnswers::same_different;
+  EXPECT_EQ(block.wording(), "same_different");
+  Comparison::Trial same(block, plan, 0), different = same;
+  EXPECT_TRUE(same.refusal({"select", 2}));
+  EXPECT_FALSE(same.refusal({"no_difference"}));
+  EXPECT_FALSE(same.refusal({"different"}));
+  EXPECT_EQ(same.n_answers(), 2);
+  same.take({"no_difference"});
+  different.take({"different"});
+  EXPECT_EQ(same.result().outcome, "no_difference");
+  EXPECT_EQ(different.result().outcome, "difference");
+  EXPECT_FALSE(different.result().chosen_slot);
+  EXPECT_EQ(same.answer(), "none");
+  EXPECT_EQ(different.answer(), "different");
+  EXPECT_EQ(same.answered_different(), false);
+  EXPECT_EQ(different.answered_different(), true);
+  block.positive_answer = PositiveAnswer::correct_choice;
+  ASSERT_EQ(block.check().size(), 1u);
+  EXPECT_EQ(block.check()[0].keys.front(), "positive_answer");
+}
+
+TEST(ComparisonSameDifferent, IsAnsweredByWhetherModelsPerceiveADifference) {
+  const Comparison::Offer offer{ComparisonAnswers::same_different};
+  RandomStream stream(2, "test");
+  for (const bool differ : {false, true}) {
+    const Answer expected{{{differ ? "different" : "no_difference"}}};
+    EXPECT_EQ(Comparison::simulated(offer, {.remembered_mm = {1, 2}, .differ = differ}, stream),
+              expected);
+    EXPECT_EQ(Comparison::blind(offer, {.n_slots = 2, .differ = differ}, stream), expected);
+  }
+  int n_different = 0;
+  for (int i = 0; i < 1000; ++i)
+    n_different += Comparison::simulated(offer, {.remembered_mm = {1, 2}, .lapse = true}, stream)
+                       .actions.at(0)
+                       .kind == "different";
+  EXPECT_NEAR(n_different, 500, 60) << "a lapse is a coin";
+}
+
 Comparison::Block block_of(Sides sides) {
   Comparison::Block block;
   block.name = "c";

@@ -203,6 +203,32 @@ TEST(ForcedChoice, IsSimulatedReplayedAndJudgedWithoutThirdAnswer) {
   }
 }
 
+// A comparison by "same" and "different": no model names a cube, and the log is verified.
+TEST(SameDifferent, IsSimulatedReplayedAndJudgedWithoutCube) {
+  for (const std::string responder : {"simulated", "coin", "always_yes", "always_no"}) {
+    SCOPED_TRACE(responder);
+    const StoredSession stored(testing::shipped_protocol("examples/same_different"), responder, 5);
+    std::map<std::string, int> n;
+    for (const TrialRow& trial : stored.reader().trials(stored.id())) {
+      if (trial.plan.task != "comparison" || trial.status != TrialStatus::completed) continue;
+      EXPECT_FALSE(trial.chosen_slot);
+      ++n[std::string(*trial.outcome)];
+    }
+    EXPECT_EQ(n["difference"] + n["no_difference"], 24 + 4);
+    EXPECT_EQ(n["difference"] > 0, responder != "always_no");
+    EXPECT_EQ(n["no_difference"] > 0, responder != "always_yes");
+    EXPECT_FALSE(verify_session(stored.reader(), stored.id(), [](double) {}).first);
+    const Judgments judgments = judge_session(stored.reader(), stored.session(),
+                                              {{Plug{responder}}, 4}, nullptr, [](double) {});
+    for (const JudgedTrial& trial : judgments.trials)
+      if (trial.task == "comparison") {
+        EXPECT_EQ(trial.n_answers, 2);
+        EXPECT_TRUE(trial.detects);
+        EXPECT_EQ(trial.models.at(0).n_of("none") + trial.models.at(0).n_of("different"), 4);
+      }
+  }
+}
+
 // Mass and friction varied apart: in the log, in the lag that is displayed, and in a replay.
 TEST(OwnFriction, OfCubesIsLoggedDisplayedAndReplayed) {
   const StoredSession stored(testing::shipped_protocol("examples/friction"), "simulated", 5);

@@ -120,7 +120,7 @@ inline std::vector<NamedScreen> task_screens(const ScreenTexts& texts) {
   for (const Task task : words_of<Task>()) {
     if (!texts.pages.contains(text_page(Screen::trial, task))) continue;
     all.push_back({"instructions_" + task, page_state(Screen::instructions, task)});
-    for (const std::string_view wording : task_named(task).wordings) {
+    for (const auto& [wording, texts_of_trials] : task_named(task).wordings) {
       ScreenState state = page_state(Screen::instructions, task);
       if (texts.if_any(text_page(state), instructions_key(wording)).empty()) continue;
       state.wording = wording;

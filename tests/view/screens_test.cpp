@@ -11,6 +11,7 @@
 
 #include "EveryScreen.h"
 #include "base/Error.h"
+#include "tasks/Comparison.h"
 #include "tasks/Task.h"
 #include "view/text/TextFit.h"
 
@@ -270,6 +271,18 @@ TEST(Screens, ChoiceTakesOneTap) {
   EXPECT_EQ(action(fixture.tap("no_difference")).kind, "no_difference");
   EXPECT_FALSE(action(fixture.tap("no_difference")).slot);
   EXPECT_EQ(fixture.tap("put_cubes_back")->kind, TouchKind::put_cubes_back);
+}
+
+TEST(Screens, SameOrDifferentTakesOneTapAndNoCube) {
+  Fixture fixture;
+  ScreenState state = trial_state("comparison");
+  state.offer = Comparison::Offer{ComparisonAnswers::same_different};
+  fixture.screens.show(state, true);
+  EXPECT_THAT(names(fixture.page(), true),
+              ElementsAre("no_difference", "different", "put_cubes_back"));
+  EXPECT_EQ(action(fixture.tap("no_difference")).kind, "no_difference");
+  EXPECT_EQ(action(fixture.tap("different")).kind, "different");
+  EXPECT_FALSE(action(fixture.tap("different")).slot);
 }
 
 TEST(Screens, LabelIsGivenToSelectedCubeAndRemovedBySecondTap) {

@@ -155,7 +155,7 @@ struct Declared {
   std::optional<AnalysisPlan> plan;
   ExclusionRules exclusion;
   std::map<std::string, published::Condition> published_conditions;
-  std::set<std::string> forced;  // blocks of forced choices
+  std::map<std::string, ComparisonAnswers> answers;  // by block, where not three
   std::map<std::string, FormQuestion> questions;
 };
 
@@ -168,7 +168,7 @@ std::map<std::string, StaircaseRun> staircases_in(const Protocol& protocol) {
   std::map<std::string, StaircaseRun> runs;
   for (const Block& block : protocol.blocks)
     if (const auto* comparison = block_as<Comparison::Block>(block);
-        comparison && !comparison->is_forced())
+        comparison && comparison->has_three_answers())
       for (const ReferenceStaircase& entry : comparison->staircases)
         runs[entry.staircase.name()] = {
             std::make_shared<const Procedure>(entry.staircase),
@@ -187,8 +187,8 @@ Declared declared_in(const std::string& protocol_text, const SessionConfig& conf
     declared.published_conditions = published::conditions_in(protocol);
     for (const Block& block : protocol.blocks)
       if (const auto* comparison = block_as<Comparison::Block>(block);
-          comparison && comparison->is_forced())
-        declared.forced.insert(comparison->name);
+          comparison && !comparison->has_three_answers())
+        declared.answers[comparison->name] = comparison->answers;
     take_questions(protocol, config.texts.text, config.texts.path);
     for (const Block& block : protocol.blocks)
       if (const auto* judgment = block_as<Judgment::Block>(block); judgment && judgment->question)
@@ -219,7 +219,9 @@ SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& 
   const std::vector<LoggedEvent> events = log.events(id, counted_kinds);
   data.frames = log.frame_counts(id);
   for (Attempt& attempt : data.attempts)
-    attempt.is_forced = found->second.forced.contains(attempt.trial.plan.block);
+    if (const auto answers = found->second.answers.find(attempt.trial.plan.block);
+        answers != found->second.answers.end())
+      attempt.answers_offered = answers->second;
   const auto turns_deg = log.clone_yaw_deg(id);
   for (Attempt& attempt : data.attempts)
     for (const CubeRow& cube : attempt.cubes)

@@ -17,6 +17,7 @@
 #include "inference/PredictiveCheck.h"
 #include "protocol/study/AnalysisPlan.h"
 #include "record/reader/LogReader.h"
+#include "tasks/Comparison.h"
 
 namespace heft {
 
@@ -29,12 +30,14 @@ struct Attempt {
   /// Largest turn of the clone against the hand while it touched a cube, by slot; only where frames
   /// were kept.
   std::map<int, double> clone_yaw_deg{};
-  bool is_forced = false;  ///< a comparison without the answer "no difference"
+  /// What a comparison could be answered by.
+  ComparisonAnswers answers_offered = ComparisonAnswers::heavier_or_none;
 
   bool completed() const { return trial.status == TrialStatus::completed; }
-  /// A completed comparison with an answer and a level, no practice: of three answers, or forced.
-  bool is_usable_comparison() const { return has_comparison() && !is_forced; }
-  bool is_usable_forced_choice() const { return has_comparison() && is_forced; }
+  /// A completed comparison with an answer and a level, no practice: of three answers, or others.
+  bool is_usable_comparison(ComparisonAnswers answered = ComparisonAnswers::heavier_or_none) const {
+    return has_comparison() && answers_offered == answered;
+  }
   bool has_comparison() const;
   std::vector<double> masses_g() const;  ///< by slot
   /// Whether its cubes have these masses, given from light to heavy, and the protocol's friction.

@@ -234,7 +234,7 @@ std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
     for (const Block& block : parse_protocol(protocol_text, "protocol").blocks)
       if (const auto* comparison = block_as<Comparison::Block>(block))
         for (const ReferenceStaircase& entry : comparison->staircases)
-          if (comparison->is_forced() || !ProcedureKinds::estimates_level(entry.staircase))
+          if (!comparison->has_three_answers() || !ProcedureKinds::estimates_level(entry.staircase))
             names.insert(entry.staircase.name());
   } catch (const InvalidFile&) {
   }

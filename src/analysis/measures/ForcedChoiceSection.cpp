@@ -80,7 +80,8 @@ class ForcedChoiceSection final : public Section {
   void add(const SessionData& data) override {
     for (const Attempt& attempt : data.attempts) {
       const TrialPlan& plan = attempt.trial.plan;
-      if (!attempt.is_usable_forced_choice() || !attempt.trial.chosen_slot) continue;
+      if (!attempt.is_usable_comparison(ComparisonAnswers::heavier) || !attempt.trial.chosen_slot)
+        continue;
       const bool comparison = attempt.trial.chosen_slot != plan.reference_slot;
       const Compared compared{*plan.reference_g, plan.condition};
       const double level_g = *plan.level_g == 0 ? 0 : *plan.level_g;  // no -0

@@ -67,12 +67,15 @@ std::string in_words(const Judgment::Block& block) {
 // Of up-down staircases with one rule: all but reference, start and steps.
 std::string rule_of(const UpDownConfig& rule, const Comparison::Block& block) {
   const bool correct = block.positive_answer == PositiveAnswer::correct_choice;
-  const std::string_view down = block.is_forced() ? "choice of the comparison"
-                                : correct         ? "correct choice"
-                                                  : "choice of either cube";
-  const std::string_view up = block.is_forced() ? "choice of the reference"
-                              : correct         ? "incorrect choice or \"no difference\""
-                                                : "answer \"no difference\"";
+  const bool same = block.answers == ComparisonAnswers::same_different;
+  const std::string_view down = same                ? "answer \"different\""
+                                : block.is_forced() ? "choice of the comparison"
+                                : correct           ? "correct choice"
+                                                    : "choice of either cube";
+  const std::string_view up = same                ? "answer \"same\""
+                              : block.is_forced() ? "choice of the reference"
+                              : correct           ? "incorrect choice or \"no difference\""
+                                                  : "answer \"no difference\"";
   const auto times = [](int n, std::string_view what) {
     return n == 1 ? fmt::format("each {}", what) : fmt::format("{} times {} in a row", n, what);
   };
@@ -142,8 +145,10 @@ std::string in_words(const Comparison::Block& block, Citations& citations) {
   std::string text = fmt::format(
       "They compared two cubes in {}, a reference and a comparison on {} sides, and {}.",
       block.condition, block.sides == Sides::random ? "random" : "balanced",
-      block.is_forced() ? "chose the heavier one"
-                        : "answered which one was heavier, or \"no difference\"");
+      block.is_forced()           ? "chose the heavier one"
+      : block.has_three_answers() ? "answered which one was heavier, or \"no difference\""
+                                  : "answered whether they were equally heavy, \"same\" or "
+                                    "\"different\"");
   text += staircases_in_words(block, citations);
   if (block.staircases.size() > 1)
     text +=

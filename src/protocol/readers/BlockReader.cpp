@@ -73,6 +73,19 @@ std::vector<StaircaseSettings> pair_of(TableReader& table, const StaircaseSettin
   return {{read.name + " from above", *above}, {read.name + " from below", below}};
 }
 
+// Whether the procedure's model is of which stimulus was chosen, and not of yes and no.
+template <typename Settings>
+bool needs_choice(const Settings& settings) {
+  return std::visit(
+      [](const auto& config) {
+        if constexpr (requires { config.is_indecision(); })
+          return config.is_indecision();
+        else
+          return false;
+      },
+      settings);
+}
+
 std::vector<ReferenceStaircase> read_reference_staircases(TableReader& table, NamesInUse& names,
                                                           ComparisonAnswers answers) {
   double reference_g = 0;
@@ -92,6 +105,10 @@ std::vector<ReferenceStaircase> read_reference_staircases(TableReader& table, Na
   if (!settings) return {};
   if (table.has("reference_g") && table.good({"reference_g"}))
     check_beside(table, *settings, reference_g, answers == ComparisonAnswers::heavier);
+  if (answers == ComparisonAnswers::same_different && needs_choice(settings->config))
+    table.mistake("function",
+                  "function is \"indecision\" with answers = \"same_different\", "
+                  "expected another: this one needs to know which cube is heavier");
   std::vector<ReferenceStaircase> staircases;
   for (const StaircaseSettings& one :
        paired ? pair_of(table, *settings, start_below) : std::vector{*settings}) {

@@ -45,19 +45,27 @@ constexpr std::array later_pages{PageKeys{"declined", "title text take_back leav
                                  PageKeys{"setting_up", "title text"}};
 
 struct TaskPage {
-  std::string page, keys;
-  std::string other_wordings = {};  // keys that only some of the task's blocks need
+  std::string page, keys;                            // of all its blocks
+  std::string usual = {};                            // of blocks without a wording
+  std::map<std::string, std::string> wordings = {};  // of those with one
+
+  std::string needed(std::string_view wording) const {
+    const auto its = wordings.find(std::string(wording));
+    return keys + ' ' + (its == wordings.end() ? usual : its->second);
+  }
 };
 
 // A task's two pages. They may be missing or incomplete; a session with the task refuses that.
 std::vector<TaskPage> pages_of(std::string_view task) {
   const TaskDeclaration& declaration = task_named(task);
-  std::string wordings;
-  for (const std::string_view wording : declaration.wordings)
-    wordings += ' ' + instructions_key(wording);
   const Task name(task);
-  return {{text_page(Screen::instructions, name), "title text", wordings},
-          {text_page(Screen::trial, name), std::string(declaration.texts)}};
+  TaskPage instructions{text_page(Screen::instructions, name), "title", "text"};
+  TaskPage trial{text_page(Screen::trial, name), std::string(declaration.texts)};
+  for (const Wording& wording : declaration.wordings) {
+    instructions.wordings[std::string(wording.name)] = instructions_key(wording.name);
+    trial.wordings[std::string(wording.name)] = wording.texts;
+  }
+  return {instructions, trial};
 }
 
 std::string trimmed(const std::string& text) {
@@ -232,7 +240,8 @@ ScreenTexts parse_texts(const std::string& text, const std::string& file) {
   for (const std::string_view task : words_of<Task>())
     for (const TaskPage& page : pages_of(task))
       if (auto table = reader.table(page.page)) {
-        const std::string keys = page.keys + page.other_wordings;
+        std::string keys = page.keys + ' ' + page.usual;
+        for (const auto& [wording, more] : page.wordings) keys += ' ' + more;
         texts.pages.emplace(page.page, read_page(*table, {page.page, "", keys}));
       }
   read_questionnaires(reader, texts);
@@ -247,9 +256,7 @@ void require_words(const ScreenTexts& texts, const SessionPlan& plan, const std:
     const auto* trials = std::get_if<TaskBlock>(&block);
     if (!trials) continue;
     for (const TaskPage& page : pages_of(trials->task().name)) {
-      const bool is_worded = !trials->wording().empty() && !page.other_wordings.empty();
-      std::istringstream words{is_worded ? "title " + instructions_key(trials->wording())
-                                         : page.keys};
+      std::istringstream words{page.needed(trials->wording())};
       for (std::string key; words >> key;)
         if (std::string text = fmt::format("[{}] {}", page.page, key);
             texts.if_any(page.page, key).empty() && std::ranges::count(missing, text) == 0)

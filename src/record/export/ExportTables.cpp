@@ -216,15 +216,18 @@ ExportTable choice_table() {
                                      "", "r.condition || printf(' %.6g g', r.reference_g)"}};
   add_described<TrialRow>(columns,
                           {"condition", "reference_g", "staircase", "is_catch", "level_g"});
-  columns.push_back({"answer", "", "cube that was judged heavier", "comparison|reference|none",
-                     "CASE WHEN r.outcome <> 'difference' OR r.chosen_slot IS NULL THEN 'none' "
+  columns.push_back({"answer", "", "cube that was judged heavier",
+                     "comparison|reference|none|different",
+                     "CASE WHEN r.outcome <> 'difference' THEN 'none' "
+                     "WHEN r.chosen_slot IS NULL THEN 'different' "
                      "WHEN r.chosen_slot = coalesce(r.reference_slot, 1) THEN 'reference' ELSE "
                      "'comparison' END"});
   columns.push_back({"right_minus_left_g", "g",
                      "mass of the right cube minus mass of the left cube", "",
                      "CASE WHEN " + on_right + " THEN r.level_g ELSE -r.level_g END"});
-  columns.push_back({"side", "", "side that was judged heavier", "left|right|none",
-                     "CASE WHEN r.outcome <> 'difference' OR r.chosen_slot IS NULL THEN 'none' "
+  columns.push_back({"side", "", "side that was judged heavier", "left|right|none|different",
+                     "CASE WHEN r.outcome <> 'difference' THEN 'none' "
+                     "WHEN r.chosen_slot IS NULL THEN 'different' "
                      "WHEN r.chosen_slot = 1 THEN 'left' ELSE 'right' END"});
   return {"choices", "a completed comparison, without practice",
           of_session("trial") +

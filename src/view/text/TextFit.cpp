@@ -23,10 +23,10 @@ std::vector<ScreenState> states(const ScreenTexts& texts) {
   for (const Task task : words_of<Task>()) {
     if (!texts.pages.contains(text_page(Screen::trial, task))) continue;  // no texts for this task
     all.push_back({.screen = Screen::instructions, .task = task});
-    for (const std::string_view wording : task_named(task).wordings)
-      if (!texts.if_any(text_page(all.back()), instructions_key(wording)).empty())
+    for (const Wording& wording : task_named(task).wordings)
+      if (!texts.if_any(text_page(all.back()), instructions_key(wording.name)).empty())
         all.push_back(
-            {.screen = Screen::instructions, .task = task, .wording = std::string(wording)});
+            {.screen = Screen::instructions, .task = task, .wording = std::string(wording.name)});
     for (ScreenState trial : fullest_screens(task)) {
       trial.screen = Screen::trial;
       trial.task = task;

@@ -104,7 +104,8 @@ TEST(Methods, HaveWhatWasSet) {
 TEST(Methods, OfForcedChoicesSayHowTheseWereMade) {
   std::vector<SessionData> sessions;
   for (int i = 1; i <= 4; ++i) sessions.push_back(session_of("examples/forced_choice.toml", i));
-  for (SessionData& data : sessions) add_comparison(data, "constant", 200, 80).is_forced = true;
+  for (SessionData& data : sessions)
+    add_comparison(data, "constant", 200, 80).answers_offered = ComparisonAnswers::heavier;
   const Methods methods = methods_of(summarize({"x.db", sessions}, ""));
   const std::string text = all_of(methods);
   for (const char* part :

@@ -1,11 +1,12 @@
-// Judgments of people who know what they want to answer: what they tapped is what is logged, for
-// every kind of question, in both shipped languages, several sizes and for either hand.
+// Judgments and same-different answers of people who know what they want to answer: what they
+// tapped is what is logged, in both shipped languages, several sizes and for either hand.
 #include <gmock/gmock.h>
 
 #include "SourceFolder.h"
 #include "base/Random.h"
 #include "protocol/readers/Files.h"
 #include "session/TappedSession.h"
+#include "tasks/Comparison.h"
 #include "tasks/Judgment.h"
 
 namespace heft {
@@ -130,6 +131,63 @@ TEST(JudgmentTaps, WhatWasTappedIsWhatIsLogged) {
       EXPECT_EQ(testing::events_of(session.sink, event_kind<Action>).size(), 50u)
           << "one answer a trial";
     }
+}
+
+// Taps "same" or "different" by the words on the buttons.
+class Comparer {
+ public:
+  Comparer(std::uint64_t seed, const ScreenTexts& texts)
+      : random_(seed, "comparer"), texts_(texts) {}
+
+  std::optional<Tap> operator()(const TappedScreen& screen) {
+    const ScreenState& state = screen.screen();
+    if (state.faded || (state.screen == Screen::trial && !state.can_answer)) return std::nullopt;
+    if (state.screen == Screen::trial) meant_.try_emplace(state.trial_number, random_.coin(0.5));
+    for (const Control& control : screen.page().controls) {
+      const bool is_meant =
+          state.screen == Screen::trial
+              ? control.text ==
+                    texts_.at("trial_comparison", meant_[state.trial_number] ? "different" : "same")
+              : control.name == "next" || control.name == "more";
+      if (!is_meant || !control.enabled) continue;
+      const double down_s = made_up_s + 0.2 + 0.4 * random_.uniform();
+      return Tap{down_s, down_s + 0.05, control.area.x + control.area.width / 2,
+                 control.area.y + control.area.height / 2};
+    }
+    return std::nullopt;
+  }
+
+  const std::map<int, bool>& meant() const { return meant_; }
+
+ private:
+  RandomStream random_;
+  const ScreenTexts& texts_;
+  std::map<int, bool> meant_;  // whether different, by trial
+};
+
+TEST(SameDifferentTaps, WhatWasTappedIsWhatIsLogged) {
+  Comparison::Block block;
+  block.name = "c";
+  block.answers = ComparisonAnswers::same_different;
+  block.staircases = {
+      {200, {"c", ConstantConfig{.levels = {-100, 0, 50, 100, 200}, .n_per_level = 10}}}};
+  Protocol protocol = judgments_of({});
+  protocol.blocks = {block};
+  for (const char* language : {"en", "fr"}) {
+    SCOPED_TRACE(language);
+    const ScreenTexts texts =
+        load_texts(fmt::format("{}/protocols/texts/{}.toml", source_folder(), language));
+    Comparer comparer(7, texts);
+    TappedSession session(protocol, texts, std::ref(comparer));
+    ASSERT_EQ(session.run(), RunEnd::finished);
+    std::map<int, bool> logged;
+    for (const RecordedEntry& entry : session.sink.entries())
+      if (const auto* recorded = std::get_if<RecordedEvent>(&entry))
+        if (const auto& row = recorded->changes.trial; row && row->status == TrialStatus::completed)
+          logged[row->plan.trial_number] = row->outcome == "difference";
+    EXPECT_EQ(logged.size(), 50u);
+    EXPECT_EQ(logged, comparer.meant());
+  }
 }
 
 }  // namespace

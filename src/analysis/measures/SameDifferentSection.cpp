@@ -1,0 +1,190 @@
+// Comparisons answered by "same" or "different": how often the answer was "different" at each
+// difference, and each participant's threshold apart from the criterion.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "analysis/measures/Section.h"
+#include "analysis/report/Notes.h"
+#include "inference/Fit.h"
+
+namespace heft {
+
+namespace {
+constexpr Measure threshold{
+    "same_different_threshold_75", "g", "75 % threshold",
+    "difference in mass that would make 75 % of forced choices correct: 0.6745 by the sensitivity "
+    "of "
+    "the differencing model, fitted to each participant's same-different answers by maximum "
+    "likelihood with 2 % lapses; the criterion has no influence on it; mean over participants, "
+    "Student's t interval; of one alone the fit's interval"};
+constexpr Measure criterion{
+    "same_different_criterion", "", "criterion",
+    "half-width of what is answered by \"same\", in standard deviations of the perceived "
+    "difference, from the same fit"};
+constexpr Measure different{"same_different_different", "%", "\"different\"",
+                            "share of same-different trials at a difference that were answered by "
+                            "\"different\", over participants; at 0 g: false alarms"};
+
+constexpr double lapse_rate = 0.02;  // as in forced choices
+
+class SameDifferentSection final : public Section {
+ public:
+  void add(const SessionData& data) override {
+    for (const Attempt& attempt : data.attempts) {
+      if (!attempt.is_usable_comparison(ComparisonAnswers::same_different)) continue;
+      const TrialPlan& plan = attempt.trial.plan;
+      const double level_g = std::abs(*plan.level_g);
+      const bool is_different = attempt.trial.outcome == "difference";
+      people_[{*plan.reference_g, plan.condition}][data.participant()][level_g]
+             [is_different ? 1 : 0] += 1;
+    }
+  }
+
+  Estimates of_participants(const Summary&) const override {
+    Estimates all;
+    for (const auto& [compared, people] : people_)
+      for (const auto& [participant, answers] : people)
+        put_own(all, compared, participant, answers);
+    return all;
+  }
+
+  void put(Summary& summary) override {
+    for (const auto& [compared, people] : people_) {
+      Estimates own;
+      for (const auto& [participant, answers] : people)
+        put_own(own, compared, participant, answers);
+      for (const Measure* measure : {&threshold, &criterion}) {
+        const auto each = estimates_of(own, measure->name);
+        summary.estimates.push_back(each.size() == 1 ? *each.front()
+                                                     : mean_over_people(each, false));
+        summary.estimates.back().participant.clear();
+      }
+      put_shares(summary.estimates, compared, people);
+    }
+  }
+
+  std::vector<std::string> findings(const Summary& summary) const override {
+    std::vector<std::string> parts;
+    for (const StudyEstimate* one : estimates_of(summary.estimates, threshold.name)) {
+      const std::string where =
+          fmt::format("at {:g} g {}", *one->reference_g, in_condition(summary, one->condition));
+      if (!one->value)
+        parts.push_back("none " + where);
+      else if (!one->low || !one->high)
+        parts.push_back(fmt::format("{:.0f} g {}", *one->value, where));
+      else
+        parts.push_back(
+            fmt::format("{:.0f} g [{:.0f}, {:.0f}] {}", *one->value, *one->low, *one->high, where));
+    }
+    if (parts.empty()) return {};
+    return {fmt::format("Same-different: the 75 % threshold is {}.", some_of(parts, 4))};
+  }
+
+  std::vector<EstimateTable> tables() const override {
+    EstimateTable thresholds{
+        "same_different",
+        "Same-different comparisons: 75 % thresholds apart from the criterion",
+        {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+         column(threshold, Field::n, "n_participants", "n"),
+         column(threshold, Field::n_trials, "n_trials", "trials"),
+         column(threshold, Field::value, "threshold_75_g", "threshold g")},
+        "differencing model fitted to each participant, with 2 % lapses; mean over participants "
+        "with "
+        "Student's t interval, of one alone the fit's",
+        TablePlace::results,
+        "same_different[]"};
+    add_interval(thresholds.columns, threshold, "low_g", "high_g", 1);
+    thresholds.columns.push_back(column(criterion, Field::value, "criterion", "criterion SD", 2));
+    add_interval(thresholds.columns, criterion, "criterion_low", "criterion_high", 2);
+    thresholds.columns.push_back(column(threshold, Field::why, "why", "no threshold: why"));
+    EstimateTable by_level{
+        "same_different_by_level",
+        "Answers \"different\" by difference",
+        {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+         key_column("level_g", "difference g"),
+         column(different, Field::n_trials, "n_trials", "trials"),
+         column(different, Field::n_hits, "n_different", "different"),
+         column(different, Field::value, "different_percent", "%")},
+        "differences of either sign together; at 0 g: false alarms",
+        TablePlace::csv};
+    add_interval(by_level.columns, different, "low_percent", "high_percent", 1);
+    EstimateTable people{
+        "same_different_by_participant",
+        "Each participant's 75 % threshold in same-different comparisons",
+        {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+         key_column("participant", "participant"),
+         column(threshold, Field::value, "threshold_75_g", "threshold g"),
+         column(threshold, Field::low, "low_g", "low"),
+         column(threshold, Field::high, "high_g", "high"),
+         column(criterion, Field::value, "criterion", "criterion SD", 2),
+         column(threshold, Field::n_trials, "n_trials", "trials"),
+         column(threshold, Field::why, "why", "no threshold: why")},
+        "",
+        TablePlace::csv};
+    people.participants = true;
+    return {thresholds, by_level, people};
+  }
+
+  std::vector<ChartSpec> charts() const override {
+    return {{.name = "same_different",
+             .title = "Answers \"different\" by difference",
+             .caption = "Percentage of trials that were answered by \"different\", by the "
+                        "difference in mass; 95 % intervals over participants.",
+             .csv = "same_different_by_level.csv",
+             .importance = 38,
+             .series = {{&different}},
+             .x = "level_g",
+             .panels = {"reference_g", "condition"},
+             .x_label = "difference (g)",
+             .y_label = "% of trials",
+             .axes = "set yrange [0:100]\n"}};
+  }
+
+ private:
+  using People = std::map<std::string, AnswersByLevel>;
+
+  static void put_own(Estimates& all, const Compared& compared, const std::string& participant,
+                      const AnswersByLevel& answers) {
+    const Fit fit = fit_same_different(answers, lapse_rate);
+    for (const auto& [measure, name] :
+         {std::pair(&threshold, "threshold_75_g"), {&criterion, "indecision"}}) {
+      StudyEstimate& own = all.emplace_back(
+          StudyEstimate{measure, "comparison", compared.condition, compared.reference_g});
+      own.participant = participant;
+      own.n = 1;
+      own.n_trials = static_cast<int>(fit.n_trials);
+      own.method = "profile likelihood";
+      own.why = fit.why;
+      if (!fit.identifiable()) continue;
+      const FittedParameter& fitted = fit.parameter(name);
+      own.value = fitted.value;
+      own.low = fitted.low;
+      own.high = fitted.high;
+    }
+  }
+
+  static void put_shares(Estimates& all, const Compared& compared, const People& people) {
+    std::map<double, Tallies> by_level;
+    for (const auto& [participant, answers] : people)
+      for (const auto& [level_g, n] : answers)
+        by_level[level_g][participant] = {static_cast<int>(n[1]), static_cast<int>(n[0] + n[1])};
+    for (const auto& [level_g, tallies] : by_level) {
+      StudyEstimate& share = all.emplace_back(rate_estimate(different, rate_of(tallies)));
+      share.task = "comparison";
+      share.condition = compared.condition;
+      share.reference_g = compared.reference_g;
+      share.by = {at("level_g", level_g)};
+    }
+  }
+
+  std::map<Compared, People> people_;
+};
+}  // namespace
+
+std::shared_ptr<Section> same_different_section() {
+  return std::make_shared<SameDifferentSection>();
+}
+
+}  // namespace heft

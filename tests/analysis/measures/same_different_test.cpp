@@ -1,0 +1,77 @@
+// Same-different comparisons: thresholds against an independent fit (direct search of the same
+// likelihood), and that they stay out of the figures of three-way comparisons.
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "analysis/Figures.h"
+#include "analysis/MadeUpSessions.h"
+
+namespace heft {
+namespace {
+
+using namespace made_up;
+
+// By level: how often the answers were "same" and "different".
+using Counts = std::map<double, std::pair<int, int>>;
+
+SessionData judge(std::int64_t id, const char* participant, const Counts& counts) {
+  SessionData data = session(id, participant);
+  for (const auto& [level_g, n] : counts)
+    for (int i = 0; i < n.first + n.second; ++i) {
+      Attempt& attempt = add_comparison(data, "constant", 200, i % 2 == 0 ? level_g : -level_g);
+      attempt.answers_offered = ComparisonAnswers::same_different;
+      attempt.trial.plan.condition = "C2";
+      attempt.trial.outcome = i < n.first ? "no_difference" : "difference";
+    }
+  return data;
+}
+
+const Counts sensitive{
+    {0, {30, 10}}, {60, {24, 16}}, {120, {14, 26}}, {180, {5, 35}}, {240, {1, 39}}};
+
+TEST(SameDifferent, AnswersGiveThresholdAndCriterionOfDifferencesOfEitherSign) {
+  const Summary summary = summarized({judge(1, "a", sensitive)});
+  const StudyEstimate threshold = figure(summary, "same_different_threshold_75");
+  EXPECT_NEAR(*threshold.value, 51.30688, 1e-4);
+  EXPECT_NEAR(*threshold.low, 41.75649, 1e-3);
+  EXPECT_NEAR(*threshold.high, 63.93722, 1e-3);
+  EXPECT_EQ(threshold.n_trials, 200);
+  EXPECT_NEAR(*figure(summary, "same_different_criterion").value, 1.154425, 1e-5);
+  const StudyEstimate share = figure(summary, "same_different_different", {{"level_g", "60"}});
+  EXPECT_DOUBLE_EQ(*share.value, 40);
+  EXPECT_EQ(share.n_hits, 16);
+  EXPECT_EQ(*figure(summary, "same_different_different", {{"level_g", "0"}}).value, 25)
+      << "false alarms";
+  EXPECT_THAT(readable(summary), testing::HasSubstr("Same-different: the 75 % threshold is 51 g"));
+}
+
+TEST(SameDifferent, OfACoinHasNoThresholdButAReason) {
+  const Summary summary =
+      summarized({judge(1, "coin", {{0, {20, 20}}, {80, {21, 19}}, {160, {20, 20}}})});
+  const StudyEstimate threshold = figure(summary, "same_different_threshold_75");
+  EXPECT_FALSE(threshold.value || threshold.low || threshold.high);
+  EXPECT_THAT(threshold.why, testing::HasSubstr("no reliable sensitivity"));
+}
+
+TEST(SameDifferent, IsMeanOverParticipantsWhoHaveAThreshold) {
+  const Summary summary =
+      summarized({judge(1, "a", sensitive), judge(2, "b", sensitive),
+                  judge(3, "always", {{0, {0, 40}}, {60, {0, 40}}, {120, {0, 40}}})});
+  const StudyEstimate threshold =
+      figure(summary, "same_different_threshold_75", {{"participant", ""}});
+  EXPECT_NEAR(*threshold.value, 51.30688, 1e-4);
+  EXPECT_EQ(threshold.n, 2);
+  EXPECT_THAT(threshold.why, testing::HasSubstr("1 of 3 participants have none"));
+}
+
+TEST(SameDifferent, StaysOutOfThreeWayComparisons) {
+  const SessionData data = judge(1, "a", sensitive);
+  EXPECT_FALSE(data.attempts.front().is_usable_comparison());
+  const Summary summary = summarized({data});
+  EXPECT_FALSE(find_estimate(summary.estimates, "sensitivity"));
+  EXPECT_FALSE(find_estimate(summary.estimates, "forced_threshold_75"));
+}
+
+}  // namespace
+}  // namespace heft
