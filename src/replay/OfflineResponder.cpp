@@ -13,6 +13,7 @@
 #include "base/Random.h"
 #include "replay/AttemptReplay.h"
 #include "responders/Responder.h"
+#include "responders/decision/KnownPlan.h"
 #include "responders/perception/SeenGeometry.h"
 #include "tasks/SessionPlan.h"
 #include "tasks/Task.h"
@@ -157,8 +158,9 @@ class SessionJudge {
     ScreenState screen;
     block.trial(plan, seed())->show(screen);
     JudgedTrial trial = judged_trial(plan, *logged);
-    const TrialView view{plan.trial_number, plan.attempt, plan.task, stage,
-                         screen.offer,      last_differed};
+    const TrialView view{
+        plan.trial_number,       plan.attempt, plan.task, stage, screen.offer, last_differed,
+        truth_of(protocol, plan)};
     for (std::size_t i = 0; i < models_.size(); ++i) {
       const auto draws = draws_of(models_[i].in_effect(attempt.row), view, seen, block, plan);
       if (!draws) return leave_out(attempt, no_answer_of(models_[i].name()));
@@ -193,8 +195,10 @@ class SessionJudge {
                                       const std::vector<DisplayedFrame>& frames,
                                       const TaskBlock& block, const TrialPlan& plan) const {
     AnswerDraws draws;
+    TrialView displayed = view;
+    displayed.truth.reset();
     for (const auto& responder : responders) {
-      const auto answer = responder->judge(view, frames);
+      const auto answer = responder->judge(responder->knows_plan() ? view : displayed, frames);
       const auto judged = answer ? answered(block, plan, seed(), answer->actions) : nullptr;
       if (!judged) return std::nullopt;
       draws.add(word_of(*judged), judged->labels());

@@ -1,6 +1,7 @@
 // A responder has a hand and a decision model. The hand gives the effector's pose over time; the
 // decision model receives displayed frames and answers with actions. Neither gets a mass, a force
-// or a condition. Responder.cpp has the table of all responders.
+// or a condition, but for null models that do not look at all and declare it (TrialTruth).
+// Responder.cpp has the table of all responders.
 //
 // Responders keep no memory between trials, and draw from streams keyed by trial number and
 // attempt, so that a trial interrupted by a crash is repeated exactly.
@@ -28,6 +29,13 @@ namespace heft {
 
 struct ResponderParameters;
 
+/// What no participant sees of a trial: masses, and in comparisons the level and the first level of
+/// its procedure. Only for null models, which state how answers would look without perception.
+struct TrialTruth {
+  std::vector<double> masses_g;  ///< by slot, leftmost first, at the trial's start
+  std::optional<double> level_g, start_g;
+};
+
 /// The participant's view of a trial at its start.
 struct TrialView {
   int trial_number = 0;
@@ -38,6 +46,7 @@ struct TrialView {
   /// Whether the last completed trial's answer was that the cubes differ; none: it has no such
   /// answer, was vetoed, or this is the first trial.
   std::optional<bool> last_differed = {};
+  std::optional<TrialTruth> truth = {};  ///< none unless the responder knows_plan()
 };
 
 struct HandSample {
@@ -73,6 +82,9 @@ class Responder {
                                       [[maybe_unused]] = {}) const {
     return std::nullopt;
   }
+
+  /// Whether its answers depend on the plan and not on what is displayed.
+  virtual bool knows_plan() const { return false; }
 
   /// The parameters of its hand; null: the hand rests, or does not follow from parameters.
   virtual const ResponderParameters* hand_parameters() const { return nullptr; }
@@ -131,6 +143,10 @@ inline RandomStream trial_stream(std::uint64_t seed, std::string_view purpose,
 /// to try again or when an answer was refused.
 std::unique_ptr<Responder> make_simulated(const ResponderOptions& options);
 
+/// The same hand with an observer who uses the displayed poses exactly and decides without noise:
+/// the bound of what can be answered from the frames.
+std::unique_ptr<Responder> make_ideal(const ResponderOptions& options);
+
 /// Plays back a recording: a real hand's trajectories and timed actions.
 /// @throws Error and InvalidFile as load_recording; at a trial's start, if the recording lacks that
 ///   trial or has an action that its task does not offer
@@ -141,5 +157,9 @@ std::unique_ptr<Responder> make_always_yes(const ResponderOptions& options);
 std::unique_ptr<Responder> make_always_no(const ResponderOptions& options);
 std::unique_ptr<Responder> make_coin(const ResponderOptions& options);
 std::unique_ptr<Responder> make_criterion_only(const ResponderOptions& options);
+
+// Null models that know the plan: the hand rests, too.
+std::unique_ptr<Responder> make_start_anchored(const ResponderOptions& options);
+std::unique_ptr<Responder> make_weber(const ResponderOptions& options);
 
 }  // namespace heft

@@ -97,11 +97,24 @@ constexpr std::array rows{
     ParameterRow{coin, "concentration", "1", 0, 0, 1000, 0, &P::concentration,
                  "p differs between participants as Beta(p c, (1 - p) c) for concentration c; 0: "
                  "it does not"},
+    // Those that know the plan.
+    ParameterRow{anchor, "anchor_fraction", "1", 0.5, 0, 3, 0.4, &P::anchor_fraction,
+                 "\"same\" once the level has come down to this fraction of where it started: a "
+                 "judgment anchored on the first value (Tversky and Kahneman 1974)"},
+    ParameterRow{anchor, "anchor_noise", "1", 0.2, 0, 3, 0.3, &P::anchor_noise,
+                 "standard deviation from trial to trial, as a fraction of the start"},
+    ParameterRow{
+        weber, "weber_fraction", "1", 0.1, 0, 20, 0.4, &P::weber_fraction,
+        "\"different\" where the heaviest mass exceeds the lightest by this fraction of it; "
+        "lifted weights: 0.02 to 0.1 (Ross and Murray 1996)"},
+    ParameterRow{weber, "weber_noise", "1", 0.1, 0, 3, 0.3, &P::weber_noise,
+                 "standard deviation of the logarithm of each judged mass"},
 };
 
 constexpr std::string_view cue_reason =
     "what heaviness is seen by: the clone's distance from the effector, the cube's missing motion, "
-    "the share of the hand's motion that it lacks, or whether it moved";
+    "the share of the hand's motion that it lacks, whether it moved, or the distance while it "
+    "slides";
 
 bool has(std::span<const ParameterPart> parts, ParameterPart part) {
   return std::ranges::find(parts, part) != parts.end();

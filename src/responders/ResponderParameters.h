@@ -23,20 +23,26 @@ namespace heft {
 /// cd_ratio: the share of the hand's movement that the cube lacks, as -ln(cube's / hand's) times a
 ///   usual stroke of 90 mm (control/display ratio; Samad et al. 2019).
 /// moved: nothing if the cube was seen to move, else a usual stroke.
-enum class Cue { offset, cube_motion, cd_ratio, moved };
+/// sliding_offset: the offset's mean while the cube slides, or its largest if it never does. Starts
+/// and ends of strokes, where the cube's inertia counts, cancel.
+enum class Cue { offset, cube_motion, cd_ratio, moved, sliding_offset };
 template <>
 struct EnumNames<Cue> {
-  static constexpr std::array<std::string_view, 4> names{"offset", "cube_motion", "cd_ratio",
-                                                         "moved"};
+  static constexpr std::array<std::string_view, 5> names{"offset", "cube_motion", "cd_ratio",
+                                                         "moved", "sliding_offset"};
 };
 
 /// The part of a responder that has the parameter.
-enum class ParameterPart { everyone, hand, perception, decision, coin };
+enum class ParameterPart { everyone, hand, perception, decision, coin, anchor, weber };
 
 inline constexpr std::array simulated_parts{ParameterPart::everyone, ParameterPart::hand,
                                             ParameterPart::perception, ParameterPart::decision};
 inline constexpr std::array criterion_only_parts{ParameterPart::everyone, ParameterPart::decision};
 inline constexpr std::array coin_parts{ParameterPart::coin};
+inline constexpr std::array ideal_parts{ParameterPart::everyone, ParameterPart::hand};
+inline constexpr std::array start_anchored_parts{ParameterPart::everyone, ParameterPart::coin,
+                                                 ParameterPart::anchor};
+inline constexpr std::array weber_parts{ParameterPart::everyone, ParameterPart::weber};
 
 /// One participant's values. Meanings, units and defaults: see the table.
 struct ResponderParameters {
@@ -61,6 +67,8 @@ struct ResponderParameters {
   double criterion_drift_mm = 0, criterion_persistence = 0, repetition_mm = 0;
 
   double p = 0, concentration = 0;
+  double anchor_fraction = 0, anchor_noise = 0;
+  double weber_fraction = 0, weber_noise = 0;
 };
 
 /// A row of the table. Of a mechanism that is off by default the value is 0.

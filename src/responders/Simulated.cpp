@@ -12,6 +12,9 @@
 namespace heft {
 
 namespace {
+// What the offsets of equal cubes differ by from stroke to stroke.
+constexpr double ideal_criterion_mm = 0.3, ideal_criterion_fraction = 0.03;
+
 /// State of one trial.
 struct SimulatedTrial {
   SimulatedTrial(const ResponderParameters& parameters, std::uint64_t seed, const TrialView& trial)
@@ -36,8 +39,8 @@ struct SimulatedTrial {
 
 class Simulated : public Responder {
  public:
-  explicit Simulated(const ResponderOptions& options)
-      : seed_(options.seed), parameters_(participant_parameters(options, simulated_parts)) {}
+  Simulated(std::uint64_t seed, const ResponderParameters& parameters)
+      : seed_(seed), parameters_(parameters) {}
 
   void begin_trial(const TrialView& trial) override { trial_.emplace(parameters_, seed_, trial); }
 
@@ -100,7 +103,22 @@ class Simulated : public Responder {
 }  // namespace
 
 std::unique_ptr<Responder> make_simulated(const ResponderOptions& options) {
-  return std::make_unique<Simulated>(options);
+  return std::make_unique<Simulated>(options.seed,
+                                     participant_parameters(options, simulated_parts));
+}
+
+std::unique_ptr<Responder> make_ideal(const ResponderOptions& options) {
+  using P = ResponderParameters;
+  ResponderParameters parameters = participant_parameters(options, ideal_parts);
+  parameters.cue = Cue::sliding_offset;
+  for (double P::*const none :
+       {&P::moved_share, &P::just_visible_mm, &P::localization_noise_mm, &P::length_noise,
+        &P::integration_s, &P::memory_noise, &P::haptic_noise_mm, &P::judgment_noise_mm,
+        &P::guess_probability, &P::lapse_rate, &P::correction_probability})
+    parameters.*none = 0;
+  parameters.criterion_mm = ideal_criterion_mm;
+  parameters.criterion_fraction = ideal_criterion_fraction;
+  return std::make_unique<Simulated>(options.seed, parameters);
 }
 
 }  // namespace heft

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/Error.h"
+#include "responders/decision/KnownPlan.h"
 #include "session/DisplayCheck.h"
 
 namespace heft {
@@ -29,10 +30,15 @@ FrameRow row_of(const Picture& picture, double start_s) {
 
 }  // namespace
 
-TrialView trial_view(const Protocol& protocol, const Engine& engine, const TrialPlan& plan) {
-  return {
-      plan.trial_number,     plan.attempt,          plan.task, stage_of(protocol, plan.n_slots()),
-      engine.screen().offer, engine.last_differed()};
+TrialView trial_view(const SessionParts& parts, const TrialPlan& plan) {
+  TrialView view{plan.trial_number,
+                 plan.attempt,
+                 plan.task,
+                 stage_of(parts.protocol, plan.n_slots()),
+                 parts.engine.screen().offer,
+                 parts.engine.last_differed()};
+  if (parts.responder.knows_plan()) view.truth = truth_of(parts.protocol, plan);
+  return view;
 }
 
 AttemptRun::AttemptRun(const SessionParts& parts, const RunnerOptions& options, Journal& journal,
@@ -43,7 +49,7 @@ void AttemptRun::run(const TrialPlan& plan) {
   const Protocol& protocol = parts_.protocol;
   journal_.emit_now(TrialStarted{});
   seen_s_ = start_s_ = engine().last_s();
-  parts_.responder.begin_trial(trial_view(protocol, engine(), plan));
+  parts_.responder.begin_trial(trial_view(parts_, plan));
   parts_.pictures.begin_attempt({start_s_, plan.trial_number, plan.attempt});
   n_continued_ = journal_.n_continued();
   world_.emplace(protocol, plan);

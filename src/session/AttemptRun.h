@@ -9,7 +9,7 @@
 namespace heft {
 
 /// What the responder may know of the open trial.
-TrialView trial_view(const Protocol& protocol, const Engine& engine, const TrialPlan& plan);
+TrialView trial_view(const SessionParts& parts, const TrialPlan& plan);
 
 class AttemptRun {
  public:

@@ -27,7 +27,7 @@ void SurrogateAttempt::run(const TrialPlan& plan) {
   journal_.emit_now(TrialStarted{});
   start_s_ = engine().last_s();
   now_s_ = 0;
-  const TrialView view = trial_view(parts_.protocol, engine(), plan);
+  const TrialView view = trial_view(parts_, plan);
   stage_ = view.stage;
   arrange(plan);
   log(now_s_, CubesShown{});

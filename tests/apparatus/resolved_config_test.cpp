@@ -179,7 +179,8 @@ TEST(Resolve, RefusesWhatCanNotWork) {
 TEST(Resolve, ARestingHandIsRefusedWhereAnswersNeedContact) {
   Protocol protocol = quick();
   protocol.require_contact = true;
-  for (const char* name : {"coin", "always_yes", "always_no", "criterion_only"})
+  for (const char* name :
+       {"coin", "always_yes", "always_no", "criterion_only", "start_anchored", "weber"})
     EXPECT_THAT(refusal(options_with(Plug{name}), protocol), HasSubstr("never touches a cube"));
   EXPECT_EQ(refusal(model(), protocol), "");
 }

@@ -29,7 +29,7 @@ from window_test import Person, Screen  # noqa: E402
 
 GOLDEN_LOGS = ROOT / "tests" / "golden" / "logs"
 CAMERA = ROOT / "protocols" / "apparatus" / "synthetic_camera.yaml"
-RESTING = ["always_yes", "always_no", "coin", "criterion_only"]
+RESTING = ["always_yes", "always_no", "coin", "criterion_only", "start_anchored", "weber"]
 FILMED = ["synthetic", "frames", "video"]
 HAS_SCREEN = shutil.which("Xvfb") and shutil.which("xdotool")
 AT_ONCE = 6  # most of them wait

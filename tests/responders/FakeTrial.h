@@ -28,6 +28,7 @@ struct TrialSetup {
   bool takes_answers = true;  ///< false: the screen ignores every action
   double at_most_s = 300;
   std::optional<bool> last_differed = {};
+  std::optional<double> level_g = {}, start_g = {};  ///< for responders that know the plan
 };
 
 struct Result {
@@ -61,8 +62,10 @@ class Trial {
     screen_.screen = Screen::trial;
     screen_.task = setup.task;
     if (setup.task == "sorting") labels_on(screen_).resize(setup.masses_g.size());
-    responder.begin_trial(
-        {setup.trial_number, setup.attempt, setup.task, stage_, {}, setup.last_differed});
+    TrialView view{setup.trial_number, setup.attempt, setup.task, stage_, {}, setup.last_differed};
+    if (responder.knows_plan())
+      view.truth = TrialTruth{setup.masses_g, setup.level_g, setup.start_g};
+    responder.begin_trial(view);
   }
 
   Result run() {

@@ -24,6 +24,10 @@ std::string refusal(std::string_view responder, const std::vector<Parameter>& pa
   return "";
 }
 
+bool is_simulated(const ParameterRow& row) {
+  return find_row(row.name, simulated_parts) != nullptr;
+}
+
 TEST(Parameters, MistakesAreReportedTogetherAtTheirPlaces) {
   const std::string text = refusal("simulated", {{"criterion_m", 3.0, {"p.toml", 1, 1}},
                                                  {"lapse_rate", 1.5, {"p.toml", 2, 14}},
@@ -52,7 +56,7 @@ TEST(Parameters, EveryRowSaysAllAboutItselfAndIsDescribed) {
     EXPECT_LE(row.least, row.value) << row.name;
     EXPECT_LE(row.value, row.most) << row.name;
     EXPECT_FALSE(row.reason.empty()) << row.name;
-    if (row.part == ParameterPart::coin) continue;
+    if (!is_simulated(row)) continue;
     EXPECT_THAT(
         text, AllOf(HasSubstr(std::string(row.name) + " = "), HasSubstr(std::string(row.reason))));
   }
@@ -162,14 +166,14 @@ std::string trace(const std::vector<Parameter>& parameters) {
 TEST(Parameters, EveryOneOfThemChangesWhatAParticipantDoes) {
   const std::string usual = trace({});
   EXPECT_TRUE(trace({}) == usual);
-  for (const char* cue : {"cube_motion", "cd_ratio", "moved"})
+  for (const char* cue : {"cube_motion", "cd_ratio", "moved", "sliding_offset"})
     EXPECT_TRUE(trace({{"cue", std::string(cue), {}}}) != usual) << cue;
   // Two belong to a mechanism that another one switches on.
   const std::map<std::string_view, Parameter> switches{
       {"haptic_mm", {"haptic_noise_mm", 2.0, {}}},
       {"criterion_persistence", {"criterion_drift_mm", 10.0, {}}}};
   for (const ParameterRow& row : parameter_rows()) {
-    if (row.part == ParameterPart::coin) continue;
+    if (!is_simulated(row)) continue;
     const auto with = [&](double value) {
       std::vector<Parameter> given{{std::string(row.name), value, {}}};
       if (switches.contains(row.name)) given.push_back(switches.at(row.name));

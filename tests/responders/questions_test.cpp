@@ -48,7 +48,8 @@ TEST(AnyAnswer, IsInTheRangeWhereNoWholeNumberIs) {
 
 TEST(AnyAnswer, IsEachModelsOwnAndARecordingHasNone) {
   const FormQuestion slider = question(QuestionKind::slider);
-  for (const char* name : {"simulated", "always_yes", "always_no", "coin", "criterion_only"}) {
+  for (const char* name : {"simulated", "always_yes", "always_no", "coin", "criterion_only",
+                           "start_anchored", "weber", "ideal"}) {
     const auto model = responder_named(name).make({7, {}, ""});
     EXPECT_EQ(model->answer(slider, "a"), any_answer_to(slider, 7, "a")) << name;
     EXPECT_EQ(model->answer(slider, "a"), model->answer(slider, "a")) << name;

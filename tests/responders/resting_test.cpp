@@ -98,7 +98,8 @@ TEST(CriterionOnly, DependsOnItsCriterionAndOnNoCube) {
 }
 
 TEST(RestingResponders, LeaveTheCubesAloneAndAnswerSoonAfterSeeingThem) {
-  for (std::string_view name : {"always_yes", "always_no", "coin", "criterion_only"}) {
+  for (std::string_view name :
+       {"always_yes", "always_no", "coin", "criterion_only", "start_anchored", "weber"}) {
     const auto responder = make(name, 6);
     for (Task task : {"introduction", "sorting", "comparison"}) {
       std::vector<double> masses{15, 800};

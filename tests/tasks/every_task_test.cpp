@@ -1,5 +1,6 @@
 // Every task of the list on every path: simulated, interrupted and resumed, vetoed, replayed,
 // judged, exported. Each needs a shipped protocol. Screens are tested in tests/view.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -55,6 +56,8 @@ class EveryTask : public ::testing::TestWithParam<std::string_view> {
                                  << " instead of " << verified.first->came_out;
   }
 
+  void continue_after_kill(const std::string& responder);
+
   Protocol protocol_ = protocol_with(GetParam());
   std::string log_ =
       (fs::temp_directory_path() / ("heft-task-" + std::to_string(::getpid()))).string();
@@ -62,8 +65,10 @@ class EveryTask : public ::testing::TestWithParam<std::string_view> {
 };
 
 TEST_P(EveryTask, IsSimulatedReplayedJudgedAndExported) {
-  for (const std::string responder : {"simulated", "coin", "always_yes", "always_no"}) {
+  for (const std::string responder :
+       {"simulated", "ideal", "coin", "always_yes", "always_no", "start_anchored", "weber"}) {
     SCOPED_TRACE(responder);
+    const bool touches = responder_named(responder).touches_cubes;
     const StoredSession stored(protocol_, responder, 5);
     int n = 0;
     for (const TrialRow& trial : stored.reader().trials(stored.id()))
@@ -78,11 +83,11 @@ TEST_P(EveryTask, IsSimulatedReplayedJudgedAndExported) {
     };
     EXPECT_EQ(std::ssize(judgments.trials) + n_left_out(is_untouched) + n_left_out(is_a_number),
               stored.n_completed());
-    EXPECT_EQ(judgments.trials.empty(), responder != "simulated") << "the others touch no cube";
+    EXPECT_EQ(judgments.trials.empty(), !touches) << "the others touch no cube";
     const auto of_task =
         std::ranges::count(judgments.trials, GetParam(),
                            [](const JudgedTrial& trial) -> std::string_view { return trial.task; });
-    const bool all_scored = responder == "simulated" && n_left_out(is_a_number) == 0;
+    const bool all_scored = touches && n_left_out(is_a_number) == 0;
     EXPECT_EQ(of_task, all_scored ? n : 0);
 
     if (responder != "simulated") continue;
@@ -95,10 +100,27 @@ TEST_P(EveryTask, IsSimulatedReplayedJudgedAndExported) {
   }
 }
 
-// The program is killed in a trial of the task; the log is resumed to its end.
+std::vector<std::string> answers_of(const std::vector<TrialRow>& trials) {
+  std::vector<std::string> answers;
+  for (const TrialRow& trial : trials)
+    if (trial.status == TrialStatus::completed)
+      answers.push_back(fmt::format("{} {} {}", *trial.outcome, trial.chosen_slot.value_or(0),
+                                    trial.value.value_or(0)));
+  return answers;
+}
+
+// The program is killed in a trial of the task; the log is resumed to its end, with the answers
+// that the whole session had.
 TEST_P(EveryTask, ContinuesAfterKill) {
+  for (const char* responder : {"coin", "start_anchored", "weber", "ideal"}) {
+    SCOPED_TRACE(responder);
+    continue_after_kill(responder);
+  }
+}
+
+void EveryTask::continue_after_kill(const std::string& responder) {
   SessionOptions model;
-  model.responder = Plug{"coin"};
+  model.responder = Plug{responder};
   const RecordedSession whole = compute_session({resolve(model, protocol_, 11), "1"}, {});
   const auto& entries = whole.entries();
   const auto in_task = [&](const RecordedEntry& entry) {
@@ -108,6 +130,11 @@ TEST_P(EveryTask, ContinuesAfterKill) {
   };
   const auto cut = std::ranges::find_if(entries, in_task);
   ASSERT_NE(cut, entries.end());
+  std::vector<TrialRow> trials;
+  for (const RecordedEntry& entry : entries)
+    if (const auto* recorded = std::get_if<RecordedEvent>(&entry);
+        recorded && recorded->changes.trial)
+      trials.push_back(*recorded->changes.trial);
   RecordedSession killed(whole.header());
   for (auto entry = entries.begin(); entry <= cut; ++entry)
     if (const auto* recorded = std::get_if<RecordedEvent>(&*entry))
@@ -124,6 +151,7 @@ TEST_P(EveryTask, ContinuesAfterKill) {
   const LogReader reader(log_);
   EXPECT_EQ(reader.session(id).state, SessionState::finished);
   expect_verified(reader, id);
+  EXPECT_EQ(answers_of(reader.trials(id)), answers_of(trials));
 }
 
 // Every answer is vetoed once: its trial comes again, and the block has no further trials.

@@ -7,6 +7,7 @@
 #include "responders/ResponderParameters.h"
 #include "responders/decision/Answering.h"
 #include "responders/decision/Decision.h"
+#include "responders/decision/KnownPlan.h"
 #include "responders/hand/Hand.h"
 
 namespace heft {
@@ -23,8 +24,8 @@ using MakeDecisionModel = std::function<DecisionModel(const TrialView& trial)>;
 
 class Resting : public Responder {
  public:
-  Resting(std::uint64_t seed, MakeDecisionModel make_model)
-      : seed_(seed), make_model_(std::move(make_model)) {}
+  Resting(std::uint64_t seed, MakeDecisionModel make_model, bool knows_plan = false)
+      : seed_(seed), make_model_(std::move(make_model)), knows_plan_(knows_plan) {}
 
   void begin_trial(const TrialView& trial) override {
     rest_ = resting_pose(trial.stage, hover_m);
@@ -44,6 +45,8 @@ class Resting : public Responder {
 
   bool has_more(double t_s) const override { return !answering_->gave_up(t_s); }
 
+  bool knows_plan() const override { return knows_plan_; }
+
   std::optional<Answer> judge(const TrialView& trial, std::span<const DisplayedFrame>,
                               std::span<const int> wrong_slots) const override {
     return make_model_(trial)(wrong_slots);
@@ -57,6 +60,7 @@ class Resting : public Responder {
  private:
   std::uint64_t seed_;
   MakeDecisionModel make_model_;
+  bool knows_plan_;
   Pose rest_;
   DecisionModel model_;
   std::optional<Answering> answering_;
@@ -72,6 +76,22 @@ std::unique_ptr<Responder> make_blind(std::uint64_t seed, double p_different) {
       return blind_answer(trial, {trial.stage.n_slots(), differ, wrong_slots}, stream);
     };
   });
+}
+
+using PlanAnswer = Answer (*)(const ResponderParameters& parameters, const TrialView& trial,
+                              std::span<const int> wrong_slots, RandomStream& stream);
+
+std::unique_ptr<Responder> make_informed(std::uint64_t seed, const ResponderParameters& parameters,
+                                         PlanAnswer answer) {
+  return std::make_unique<Resting>(
+      seed,
+      [=](const TrialView& trial) -> DecisionModel {
+        RandomStream stream = trial_stream(seed, "informed answer", trial);
+        return [=](std::span<const int> wrong_slots) mutable {
+          return answer(parameters, trial, wrong_slots, stream);
+        };
+      },
+      true);
 }
 }  // namespace
 
@@ -97,6 +117,15 @@ std::unique_ptr<Responder> make_criterion_only(const ResponderOptions& options) 
           return decision.decide(nothing, wrong_slots);
         };
       });
+}
+
+std::unique_ptr<Responder> make_start_anchored(const ResponderOptions& options) {
+  return make_informed(options.seed, participant_parameters(options, start_anchored_parts),
+                       start_anchored_answer);
+}
+
+std::unique_ptr<Responder> make_weber(const ResponderOptions& options) {
+  return make_informed(options.seed, participant_parameters(options, weber_parts), weber_answer);
 }
 
 }  // namespace heft

@@ -13,6 +13,7 @@ namespace {
 constexpr double touch_break_s = 0.3;
 constexpr double mm_per_m = 1000;
 constexpr double usual_stroke_mm = 90;
+constexpr double sliding_mm = 0.1;    // more between two frames: the cube slides
 constexpr double least_share = 0.01;  // of the hand's motion that a cube is seen to share
 
 double horizontal_mm(const Eigen::Vector3d& distance_m) {
@@ -45,21 +46,27 @@ void Perception::see(const DisplayedFrame& frame) {
   look.peak_mm = std::max(look.peak_mm, touch_->smoothed_mm);
   look.travel_mm = std::max(look.travel_mm, horizontal_mm(frame.effector.position_m -
                                                           touch_->effector_at_start.position_m));
+  const Pose& pose = frame.cubes[static_cast<std::size_t>(*cube)];
+  if (horizontal_mm(pose.position_m - touch_->cube.position_m) > sliding_mm) {
+    look.sliding_mm += touch_->smoothed_mm;
+    ++look.n_sliding;
+  }
+  touch_->cube = pose;
 }
 
 void Perception::keep_touch(int cube, const DisplayedFrame& frame) {
   const std::size_t i = static_cast<std::size_t>(cube);
-  if (!touch_ || touch_->cube != cube || frame.t_s > touch_->last_s + touch_break_s) {
-    touch_ = Touch{cube, frame.t_s, 0, frame.effector, frame.cubes[i]};
+  if (!touch_ || touch_->index != cube || frame.t_s > touch_->last_s + touch_break_s) {
+    touch_ = Touch{cube, frame.t_s, 0, frame.effector, frame.cubes[i], frame.cubes[i]};
     looks_[i].push_back({});
   }
   touch_->last_s = frame.t_s;
 }
 
 double Perception::cue_mm(const DisplayedFrame& frame) const {
-  if (parameters_.cue == Cue::offset)
+  if (parameters_.cue == Cue::offset || parameters_.cue == Cue::sliding_offset)
     return horizontal_mm(frame.clone->position_m - frame.effector.position_m);
-  const Pose& cube = frame.cubes[static_cast<std::size_t>(touch_->cube)];
+  const Pose& cube = frame.cubes[static_cast<std::size_t>(touch_->index)];
   return horizontal_mm(frame.effector.position_m - touch_->effector_at_start.position_m) -
          horizontal_mm(cube.position_m - touch_->cube_at_start.position_m);
 }
@@ -78,6 +85,8 @@ double Perception::heaviness_mm(const Look& look) const {
     return shared_mm > parameters_.just_visible_mm ? 0 : usual_stroke_mm;
   if (parameters_.cue == Cue::cd_ratio && look.travel_mm > 0)
     return -usual_stroke_mm * std::log(std::max(shared_mm / look.travel_mm, least_share));
+  if (parameters_.cue == Cue::sliding_offset && look.n_sliding > 0)
+    return look.sliding_mm / look.n_sliding;
   return look.peak_mm;
 }
 

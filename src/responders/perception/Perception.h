@@ -35,15 +35,18 @@ class Perception {
  private:
   /// An unbroken touch of one cube.
   struct Touch {
-    int cube = 0;
+    int index = 0;
     double last_s = 0;
     double smoothed_mm = 0;
     Pose effector_at_start, cube_at_start;
+    Pose cube;  ///< in the last frame
   };
 
   struct Look {
-    double peak_mm = 0;    ///< largest smoothed reading
-    double travel_mm = 0;  ///< of the hand since the touch began, largest
+    double peak_mm = 0;     ///< largest smoothed reading
+    double travel_mm = 0;   ///< of the hand since the touch began, largest
+    double sliding_mm = 0;  ///< sum of the smoothed readings while the cube slides
+    int n_sliding = 0;      ///< their number
   };
 
   void keep_touch(int cube, const DisplayedFrame& frame);

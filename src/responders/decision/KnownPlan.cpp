@@ -1,0 +1,59 @@
+#include "responders/decision/KnownPlan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "responders/decision/Decision.h"
+#include "tasks/Comparison.h"
+#include "tasks/SessionPlan.h"
+
+namespace heft {
+
+namespace {
+// Tasks that rate a single cube expect a lag: friction 0.8 times gravity over 50 N/m (paper, 4.2).
+constexpr double mm_per_g = 0.8 * 9.81 / 50;
+
+bool is_of(const ReferenceStaircase& staircase, const TrialPlan& plan) {
+  return plan.staircase.empty() ? staircase.reference_g == plan.reference_g
+                                : staircase.staircase.name() == plan.staircase;
+}
+}  // namespace
+
+TrialTruth truth_of(const SessionPlan& session, const TrialPlan& plan) {
+  TrialTruth truth{plan.masses_g, plan.level_g, {}};
+  const auto* block = task_block(session, plan.block).as<Comparison::Block>();
+  if (!block) return truth;
+  const auto found = std::ranges::find_if(
+      block->staircases, [&](const ReferenceStaircase& one) { return is_of(one, plan); });
+  if (found == block->staircases.end()) return truth;
+  const std::vector<double> levels_g = found->staircase.planned_levels();
+  if (!levels_g.empty()) truth.start_g = std::ranges::max(levels_g);
+  return truth;
+}
+
+Answer start_anchored_answer(const ResponderParameters& parameters, const TrialView& trial,
+                             std::span<const int> wrong_slots, RandomStream& stream) {
+  const double noise = parameters.anchor_noise * stream.normal();
+  const bool guess = stream.coin(parameters.p);
+  const bool has_start =
+      trial.truth && trial.truth->level_g && trial.truth->start_g && *trial.truth->start_g != 0;
+  const bool differ =
+      has_start ? *trial.truth->level_g / *trial.truth->start_g + noise > parameters.anchor_fraction
+                : guess;
+  return blind_answer(trial, {trial.stage.n_slots(), differ, wrong_slots}, stream);
+}
+
+Answer weber_answer(const ResponderParameters& parameters, const TrialView& trial,
+                    std::span<const int> wrong_slots, RandomStream& stream) {
+  Percepts percepts;
+  percepts.wrong_slots = wrong_slots;
+  percepts.remembered_mm.assign(static_cast<std::size_t>(trial.stage.n_slots()), 0);
+  for (std::size_t i = 0; trial.truth && i < trial.truth->masses_g.size(); ++i)
+    percepts.remembered_mm[i] =
+        mm_per_g * trial.truth->masses_g[i] * std::exp(parameters.weber_noise * stream.normal());
+  const auto [smallest, largest] = std::ranges::minmax(percepts.remembered_mm);
+  percepts.differ = largest > (1 + parameters.weber_fraction) * smallest;
+  return simulated_answer(trial.task, trial.offer, percepts, stream);
+}
+
+}  // namespace heft
