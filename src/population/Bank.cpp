@@ -182,6 +182,7 @@ void Bank::moments(const Parameters& at, std::vector<Moments>& moments) const {
     }
     Moments& of = moments[f];
     of.mean = first / sum;  // NaN where no one has the figure
+    if (!(sum > 0)) continue;
     double second = 0, fourth = 0;
     for (Eigen::Index i = 0; i < column.size(); ++i) {
       if (std::isnan(column[i])) continue;

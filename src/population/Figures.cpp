@@ -26,6 +26,8 @@ std::optional<double> percent_of(const Tally& tally) {
 class FigureSink final : public EventSink {
  public:
   void append(const Event& event, const Changes& changes, Durability) override {
+    if (event.as<TrialStarted>()) n_choices_ = 0;
+    if (const auto* action = event.as<Action>(); action && action->kind == "select") ++n_choices_;
     if (const auto* touch = event.as<CubeTouch>(); touch && touch->max_push_displacement_m) {
       depth_mm_ += 1000 * *touch->max_push_displacement_m;
       ++n_touches_;
@@ -50,6 +52,8 @@ class FigureSink final : public EventSink {
         return percent_of(false_alarms_);
       case FigureKind::wrong_choices:
         return percent_of(wrong_choices_);
+      case FigureKind::first_try:
+        return percent_of(first_tries_);
       case FigureKind::stroke_depth:
         return n_touches_ == 0 ? std::nullopt : std::optional(depth_mm_ / n_touches_);
       case FigureKind::correct:
@@ -70,6 +74,7 @@ class FigureSink final : public EventSink {
  private:
   void add(const TrialRow& trial) {
     if (trial.plan.is_practice) return;
+    if (trial.plan.task == "introduction") first_tries_.add(n_choices_ == 1);
     if (trial.plan.task == "sorting") ++sortings_[trial.plan.condition][*trial.outcome];
     if (trial.plan.task != "comparison") return;
     if (trial.plan.reference_g && !trial.plan.staircase.empty())
@@ -86,7 +91,8 @@ class FigureSink final : public EventSink {
   std::map<std::string, std::map<std::string, int>> sortings_;  // condition, outcome
   std::map<std::string, double> reference_of_;                  // staircase
   std::map<double, std::vector<double>> jnds_g_;                // reference
-  Tally false_alarms_, wrong_choices_;
+  Tally false_alarms_, wrong_choices_, first_tries_;
+  int n_choices_ = 0;  // in the trial
   double depth_mm_ = 0;
   int n_touches_ = 0;
 };

@@ -19,6 +19,7 @@ namespace heft {
 /// false_alarms: share of the catch trials in which a difference was named, %.
 /// wrong_choices: share of the choices in comparisons that named the lighter cube, %.
 /// stroke_depth: mean distance over which the hand pushed a cube in one contact, mm.
+/// first_try: share of the introductions whose first answer is correct, %.
 enum class FigureKind {
   jnd,
   correct,
@@ -26,12 +27,14 @@ enum class FigureKind {
   dont_know,
   false_alarms,
   wrong_choices,
-  stroke_depth
+  stroke_depth,
+  first_try
 };
 template <>
 struct EnumNames<FigureKind> {
-  static constexpr std::array<std::string_view, 7> names{
-      "jnd", "correct", "incorrect", "dont_know", "false_alarms", "wrong_choices", "stroke_depth"};
+  static constexpr std::array<std::string_view, 8> names{
+      "jnd",          "correct",       "incorrect",    "dont_know",
+      "false_alarms", "wrong_choices", "stroke_depth", "first_try"};
 };
 
 /// "g", "%" or "mm".

@@ -35,6 +35,7 @@ double log_sd_error(const Bank::Moments& found, int n) {
 
 ComparedFigure compared(const ReportedFigure& reported, const Bank::Moments& found) {
   ComparedFigure figure{reported, found, {}, {}, 0};
+  if (!found.exists()) return figure;
   if (reported.mean) {
     const double error = standard_error(found, reported.n);
     figure.z_mean = (*reported.mean - found.mean) / error;
@@ -143,10 +144,11 @@ void require_figures(const Bank& bank, std::span<const ReportedFigure> figures) 
 
 }  // namespace
 
-ResponderFit fit_responder(const Bank& bank, std::span<const ReportedFigure> figures) {
+ResponderFit fit_responder(const Bank& bank, std::span<const ReportedFigure> figures,
+                           bool with_intervals) {
   std::vector<ParameterBounds> bounds;
   for (const FreeParameter& free : bank.free())
-    bounds.push_back({std::log(free.low), std::log(free.high)});
+    bounds.push_back({std::log(free.low), std::log(free.high), with_intervals});
   require_figures(bank, figures);
   FiguresLikelihood likelihood(bank, figures);
   const LogLikelihood function = [&](const Parameters& at, Derivatives* derivatives) {

@@ -58,6 +58,7 @@ class Bank {
   struct Moments {
     double mean = 0, sd = 0, kurtosis = 3;
     double effective = 0;  ///< number of equally weighted participants with the same error
+    bool exists() const { return effective > 0; }  ///< whether anyone has the figure
   };
   /// @param at the free parameters, in the order of the request
   /// @param moments one for each place; the mean is NaN where no participant has the figure
@@ -99,8 +100,9 @@ struct FreeEstimate {
 struct ComparedFigure {
   ReportedFigure reported;
   Bank::Moments found;
-  std::optional<double> z_mean, z_sd;  ///< distance in standard errors; none: not reported
-  double log_likelihood = 0;           ///< of what was reported; 0: nothing
+  /// Distance in standard errors; none: not reported, or no simulated participant has the figure.
+  std::optional<double> z_mean, z_sd;
+  double log_likelihood = 0;  ///< of what was reported; 0: nothing
 };
 
 struct ResponderFit {
@@ -119,7 +121,10 @@ struct ResponderFit {
 };
 
 /// @param figures places must be those of the bank, in its order
+/// @param with_intervals false: estimates only, which take seconds instead of minutes for several
+///   free parameters and thousands of people
 /// @throws Error (usage) naming a fitted figure that no participant of the bank has
-ResponderFit fit_responder(const Bank& bank, std::span<const ReportedFigure> figures);
+ResponderFit fit_responder(const Bank& bank, std::span<const ReportedFigure> figures,
+                           bool with_intervals = true);
 
 }  // namespace heft

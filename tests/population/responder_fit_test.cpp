@@ -112,6 +112,46 @@ TEST(ResponderFit, AFigureThatTheProtocolCannotGiveIsNamed) {
   }
 }
 
+TEST(ResponderFit, AHeldOutFigureThatNoOneHasSaysNothing) {
+  const std::vector<FigurePlace> with_catches{places[0], {FigureKind::false_alarms, {}, ""}};
+  SessionOptions given;
+  given.responder = Plug{"simulated"};
+  given.tracker = Plug{"surrogate"};
+  const std::atomic<bool> stop = false;
+  const Bank bank = *Bank::simulate(
+      {resolve(given, load_protocol(source_folder() + "/protocols/paper.toml", {}), 3),
+       {{"criterion_mm", 4, 30}},
+       with_catches,
+       60,
+       2},
+      [](double) {}, stop);
+  const ResponderFit fit =
+      fit_responder(bank, std::vector<ReportedFigure>{{with_catches[0], 271.0, {}, 13, true},
+                                                      {with_catches[1], 10.0, 5.0, 13, false}});
+  EXPECT_FALSE(fit.figures[1].found.exists()) << "the paper has no catch trials";
+  EXPECT_FALSE(fit.figures[1].z_mean || fit.figures[1].z_sd);
+  EXPECT_EQ(fit.held_out, 0);
+  EXPECT_EQ(fit.n_held_out, 0);
+  EXPECT_TRUE(fit.figures[0].z_mean);
+}
+
+TEST(Figures, FirstTryIsAHundredForThoseWhoFindTheHeavyCubeAtOnce) {
+  SessionOptions given;
+  given.responder = Plug{"coin"};  // touches the left cube first
+  given.tracker = Plug{"surrogate"};
+  const ResolvedConfig config =
+      resolve(given, load_protocol(source_folder() + "/protocols/paper.toml", {}), 3);
+  int n_first = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const auto person = config->model.responder(seed);
+    const auto first = figures_of_one(config, *person, seed,
+                                      std::vector<FigurePlace>{{FigureKind::first_try, {}, ""}});
+    ASSERT_TRUE(first[0] == 0 || first[0] == 100);
+    n_first += first[0] == 100 ? 1 : 0;
+  }
+  EXPECT_NEAR(n_first, 30, 4 * std::sqrt(60 * 0.25));
+}
+
 TEST(Bank, DoesNotDependOnThreads) {
   const Bank one = bank_of({{"criterion_mm", 2, 20}}, 40, 1),
              two = bank_of({{"criterion_mm", 2, 20}}, 40, 3);

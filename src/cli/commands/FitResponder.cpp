@@ -42,9 +42,23 @@ std::string interval_of(const FreeEstimate& one) {
                      one.high ? number(*one.high) : "...");
 }
 
-std::string beside(std::optional<double> reported, double found, std::optional<double> z) {
-  return fmt::format("{:>8} {:>8} {:>6}", reported ? fmt::format("{:.1f}", *reported) : "-",
-                     fmt::format("{:.1f}", found), z ? fmt::format("{:+.1f}", *z) : "");
+std::string beside(std::optional<double> reported, std::optional<double> found,
+                   std::optional<double> z) {
+  const auto text = [](std::optional<double> value) {
+    return value ? fmt::format("{:.1f}", *value) : "-";
+  };
+  return fmt::format("{:>8} {:>8} {:>6}", text(reported), text(found),
+                     z ? fmt::format("{:+.1f}", *z) : "");
+}
+
+std::optional<double> if_any(const Bank::Moments& found, double value) {
+  return found.exists() ? std::optional(value) : std::nullopt;
+}
+
+std::string_view role_of(const ComparedFigure& one) {
+  if (!one.found.exists()) return "no one has it";
+  if (!one.reported.mean) return "predicted";
+  return one.reported.fitted ? "fitted" : "held out";
 }
 
 void print_fit(const ResponderFit& fit, int people) {
@@ -58,11 +72,8 @@ void print_fit(const ResponderFit& fit, int people) {
   for (const ComparedFigure& one : fit.figures)
     print("{:<26} {}   {}  {}\n",
           text_of(one.reported.place) + " (" + std::string(unit_of(one.reported.place.kind)) + ")",
-          beside(one.reported.mean, one.found.mean, one.z_mean),
-          beside(one.reported.sd, one.found.sd, one.z_sd),
-          !one.reported.mean    ? "predicted"
-          : one.reported.fitted ? "fitted"
-                                : "held out");
+          beside(one.reported.mean, if_any(one.found, one.found.mean), one.z_mean),
+          beside(one.reported.sd, if_any(one.found, one.found.sd), one.z_sd), role_of(one));
   print("\nlog likelihood: fitted {:.2f} ({})", fit.fitted,
         fmt::format("{} means and SDs", fit.n_fitted));
   if (fit.n_held_out > 0)
@@ -102,10 +113,10 @@ std::string as_json(const ResponderFit& fit, int people, std::uint64_t seed) {
                                {"condition", one.reported.place.condition},
                                {"fitted", one.reported.fitted},
                                {"mean", json_of(one.reported.mean)},
-                               {"model_mean", one.found.mean},
+                               {"model_mean", json_of(if_any(one.found, one.found.mean))},
                                {"z_mean", json_of(one.z_mean)},
                                {"sd", json_of(one.reported.sd)},
-                               {"model_sd", one.found.sd},
+                               {"model_sd", json_of(if_any(one.found, one.found.sd))},
                                {"z_sd", json_of(one.z_sd)}});
   root["alike"] = ordered_json::array();
   for (const ResponderFit::Pair& pair : fit.alike)
