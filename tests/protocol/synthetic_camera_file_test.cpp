@@ -146,7 +146,7 @@ TEST(SyntheticCameraFile, DescriptionNamesUnusualValues) {
             "shadow 0.4, glare 0.25, film curve 0.75, S-curve 0.6, mosaic, sharpening 1.25, JPEG "
             "85, automatic gain 0.21, automatic white balance 0.11, flicker 0.12, focus breathing "
             "0.004, of the last picture 0.31, repeated 0.13, dropped 0.14, board's tags by 1.003, "
-            "effector's tags by 0.998, focal length by 0.995");
+            "effector's tags by 0.998, focal length by 0.995, ink spread in mm 0.1");
 }
 
 class BrokenSyntheticCamera : public testing::TestWithParam<Broken> {};
