@@ -12,6 +12,7 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/files/Csv.h"
+#include "results/paper/PaperStudy.h"
 #include "results/physics/PhysicsStudy.h"
 #include "results/pipeline/Chain.h"
 #include "results/tracking/TrackingStudy.h"
@@ -26,6 +27,8 @@ constexpr auto table = std::to_array<StudyEntry>({
      run_tracking_study},
     {"effectors", "the shipped effectors over random grips: how many faces they show, how exactly",
      run_effector_study},
+    {"paper", "rival models of participants: which give the figures that the paper reports",
+     run_paper_study},
     {"pipeline", "what each stage of a picture costs, and memory over an hour", run_pipeline_study},
 });
 }  // namespace
