@@ -324,10 +324,10 @@ int Tracker::doubles_in(const Region& part, const std::optional<BodyFit>& effect
 
 // Where both bodies are followed, the rest of the picture is not searched otherwise.
 void Tracker::look_for_doubles(const std::optional<BodyFit>& effector) {
-  const int looks = n_followed_ / pictures_between_looks;
-  const bool is_due = !board_family_tags_ && n_followed_++ % pictures_between_looks == 0;
+  const bool is_due = !board_family_tags_ && ++n_followed_ % pictures_between_looks == 0;
+  const int next = n_followed_ / pictures_between_looks % 4;
   for (int part = 0; part < 4; ++part)
-    if (board_family_tags_ || (is_due && looks % 4 == part))
+    if (board_family_tags_ || (is_due && part == next))
       doubles_[static_cast<std::size_t>(part)] = doubles_in(quarter_of(gray_, part), effector);
   result_.n_foreign_tags = std::max(result_.n_foreign_tags, std::ranges::max(doubles_));
 }
