@@ -144,7 +144,7 @@ inline RandomStream trial_stream(std::uint64_t seed, std::string_view purpose,
 std::unique_ptr<Responder> make_simulated(const ResponderOptions& options);
 
 /// The same hand with an observer who uses the displayed poses exactly and decides without noise:
-/// the bound of what can be answered from the frames.
+/// with an equal criterion, no other model answers better from the frames.
 std::unique_ptr<Responder> make_ideal(const ResponderOptions& options);
 
 /// Plays back a recording: a real hand's trajectories and timed actions.
