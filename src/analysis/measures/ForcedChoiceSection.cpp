@@ -124,20 +124,7 @@ class ForcedChoiceSection final : public Section {
   }
 
   std::vector<std::string> findings(const Summary& summary) const override {
-    std::vector<std::string> parts;
-    for (const StudyEstimate* one : estimates_of(summary.estimates, threshold.name)) {
-      const std::string where =
-          fmt::format("at {:g} g {}", *one->reference_g, in_condition(summary, one->condition));
-      if (!one->value)
-        parts.push_back("none " + where);
-      else if (!one->low || !one->high)
-        parts.push_back(fmt::format("{:.0f} g {}", *one->value, where));
-      else
-        parts.push_back(
-            fmt::format("{:.0f} g [{:.0f}, {:.0f}] {}", *one->value, *one->low, *one->high, where));
-    }
-    if (parts.empty()) return {};
-    return {fmt::format("Forced choice: the 75 % threshold is {}.", some_of(parts, 4))};
+    return threshold_findings(summary, "Forced choice", threshold.name);
   }
 
   std::vector<EstimateTable> tables() const override {

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/dataset/Summary.h"
@@ -19,6 +20,10 @@ std::vector<std::string> leading_sentences(const Summary& summary);
 
 /// "with decoupling (C2)" where the condition is one of the paper's, otherwise "in soft".
 std::string in_condition(const Summary& summary, const std::string& condition);
+
+/// Of the means of a threshold in g, by reference and condition; none: there are none.
+std::vector<std::string> threshold_findings(const Summary& summary, std::string_view task,
+                                            std::string_view measure);
 
 /// The conclusive verdicts on the paper's hypotheses about sorting, of those of its conditions that
 /// were run: "Masses are discriminated in soft."; empty: none is conclusive.

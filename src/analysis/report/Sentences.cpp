@@ -58,6 +58,22 @@ std::string in_condition(const Summary& summary, const std::string& condition) {
                 : "in " + condition;
 }
 
+std::vector<std::string> threshold_findings(const Summary& summary, std::string_view task,
+                                            std::string_view measure) {
+  std::vector<std::string> parts;
+  for (const StudyEstimate* one : estimates_of(summary.estimates, measure)) {
+    std::string part = one->value ? fmt::format("{:.0f} g", *one->value) : "none";
+    if (one->value && one->low && one->high)
+      part += fmt::format(" [{:.0f}, {:.0f}]", *one->low, *one->high);
+    part += fmt::format(" at {:g} g {}", *one->reference_g, in_condition(summary, one->condition));
+    if (one->value && !one->why.empty())
+      part += fmt::format(", over the {} that can be estimated", counted(one->n, "participant"));
+    parts.push_back(part);
+  }
+  if (parts.empty()) return {};
+  return {fmt::format("{}: the 75 % threshold is {}.", task, some_of(parts, 4))};
+}
+
 std::string sorting_verdicts(const Summary& summary) {
   std::vector<std::string> verdicts{
       technique_verdict(named(summary, "E1-H2")),
