@@ -94,7 +94,7 @@ title = "One"
 key = "c"
 kind = "choice"
 text = "Which?"
-choice = [{ value = "a", text = "Apple" }, { value = "b", text = "Ananaskirschmarmeladenbrot" }]
+choice = [{ value = "a", text = "Apple" }, { value = "b", text = "Ananaskirschmarmeladenbrotaufstrichverkostung" }]
 [[questionnaire.q_y.question]]
 key = "spoken"
 kind = "text"
