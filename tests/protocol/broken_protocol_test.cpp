@@ -126,7 +126,7 @@ const Broken blocks[] = {
      {"lacks \"kind\"", "\"sorting\""}},
     {"unknown_kind",
      {"\"sorting\"", "^\"questionnaire\""},
-     {"kind is \"questionnaire\"", "\"comparison\", \"estimation\" or \"break\""}},
+     {"kind is \"questionnaire\"", "\"estimation\", \"judgment\" or \"break\""}},
     {"misspelled_kind_key",
      {"kind = \"sorting\"", "^knd = \"sorting\""},
      {"unknown key \"knd\"", "\"kind\"?"}},

@@ -45,7 +45,7 @@ TEST(SameDifferentBlock, OfTheExampleHasItsKeys) {
   const auto& block = *block_as<Comparison::Block>(protocol.blocks.at(1));
   EXPECT_EQ(block.answers, ComparisonAnswers::same_different);
   EXPECT_EQ(block.wording(), "same_different");
-  EXPECT_EQ(block.expected_trials(), 24 + 4);
+  EXPECT_EQ(block.expected_trials(), 32 + 4);
 }
 
 class BrokenSameDifferent : public testing::TestWithParam<Broken> {};
@@ -55,7 +55,7 @@ TEST_P(BrokenSameDifferent, IsOneMistakeAtItsPlace) {
 }
 
 const std::string constant_keys =
-    "kind = \"constant\"\nlevels = [-120, -60, 0, 60, 120, 180]\nn_per_level = 4\n";
+    "kind = \"constant\"\nlevels = [-160, -80, -40, -20, 20, 40, 80, 160]\nn_per_level = 4\n";
 const std::vector<Broken> broken_same_different{
     {"positive_answer",
      {"answers = \"same_different\"",

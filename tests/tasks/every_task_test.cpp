@@ -242,7 +242,7 @@ TEST(SameDifferent, IsSimulatedReplayedAndJudgedWithoutCube) {
       EXPECT_FALSE(trial.chosen_slot);
       ++n[std::string(*trial.outcome)];
     }
-    EXPECT_EQ(n["difference"] + n["no_difference"], 24 + 4);
+    EXPECT_EQ(n["difference"] + n["no_difference"], 32 + 4);
     EXPECT_EQ(n["difference"] > 0, responder != "always_no");
     EXPECT_EQ(n["no_difference"] > 0, responder != "always_yes");
     EXPECT_FALSE(verify_session(stored.reader(), stored.id(), [](double) {}).first);

@@ -79,7 +79,7 @@ TEST(JudgmentMeans, DoNotEnterMagnitudeEstimation) {
   add_judgment(data, {100}, 5);
   const Summary summary = summarized({data});
   EXPECT_FALSE(figure(summary, "estimation_mean").measure);
-  EXPECT_EQ(*figure(summary, "judgment_mean").value, 5);
+  EXPECT_DOUBLE_EQ(*figure(summary, "judgment_mean").value, 5);
   EXPECT_FALSE(figure(summary, "judgment_mean").low) << "of one person there is no interval";
 }
 
