@@ -13,7 +13,8 @@ constexpr double least_way_m = 1e-3;
 
 void CueMeter::add(const DisplayedFrame& frame, std::optional<int> contact_slot,
                    const std::vector<double>& masses_g) {
-  if (frame.cubes.size() != cubes_.size()) finish();  // cubes appear or are rearranged
+  // Cubes appear or are rearranged.
+  if (frame.cubes.size() != cubes_.size() || masses_g != masses_g_) finish();
   follow_cubes(frame.cubes, masses_g);
   const bool touches = contact_slot && *contact_slot <= static_cast<int>(cubes_.size());
   if (push_ && (frame.t_s > push_->last_s + push_gap_s ||

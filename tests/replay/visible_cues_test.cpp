@@ -46,6 +46,24 @@ TEST(VisibleCues, APushHasItsLargestLagAndItsCubeAPath) {
   EXPECT_NEAR(found.mean_end_m(), 0.10, 1e-12);
 }
 
+// After an answer that shuffles or replaces the cubes, which are back in their places at once.
+TEST(VisibleCues, OfCubesWithNewMassesAreTheirOwn) {
+  CuesByMass noticed;
+  {
+    CueMeter meter(noticed);
+    for (int i = 0; i < 10; ++i)
+      meter.add(pushing(0.1 * i, 0.01 * i, 0.03, 0.01 * i), 1, {200, 15});
+    for (int i = 0; i < 10; ++i)
+      meter.add(pushing(1 + 0.1 * i, 0.01 * i, 0.02, 0.01 * i), 1, {150, 15});
+  }
+  ASSERT_TRUE(noticed.contains(200) && noticed.contains(150));
+  for (const auto& [mass_g, lag_m] : {std::pair(200.0, 0.03), std::pair(150.0, 0.02)}) {
+    EXPECT_EQ(noticed.at(mass_g).n_pushes, 1) << mass_g;
+    EXPECT_NEAR(noticed.at(mass_g).mean_lag_m(), lag_m, 1e-12);
+    EXPECT_NEAR(noticed.at(mass_g).mean_path_m(), 0.09, 1e-12);
+  }
+}
+
 TEST(VisibleCues, AShortGapIsTheSamePushAndAnotherCubeAnotherOne) {
   CuesByMass noticed;
   {
