@@ -42,11 +42,12 @@ struct TrialView {
   int attempt = 1;
   Task task;
   Stage stage;
-  std::any offer = {};  ///< the task's, before any answer
+  std::any offer = {};  ///< the task's
   /// Whether the last completed trial's answer was that the cubes differ; none: it has no such
   /// answer, was vetoed, or this is the first trial.
   std::optional<bool> last_differed = {};
   std::optional<TrialTruth> truth = {};  ///< none unless the responder knows_plan()
+  int n_reshuffles = 0;                  ///< how often the cubes were shuffled or replaced
 };
 
 struct HandSample {
@@ -59,6 +60,10 @@ class Responder {
   virtual ~Responder() = default;
 
   virtual void begin_trial(const TrialView& trial) = 0;
+
+  /// An answer has shuffled or replaced the cubes of the open trial.
+  /// @param trial with what is offered now
+  virtual void see_rearranged(const TrialView& trial [[maybe_unused]]) {}
 
   /// The effector at a time since the trial's start. Times do not decrease between calls.
   virtual HandSample hand(double t_s) = 0;
@@ -130,10 +135,13 @@ std::string describe_parameters(const ResponderEntry& responder);
 /// @throws Error (usage) suggesting the most similar responder if there is none of that name
 const ResponderEntry& responder_named(std::string_view name);
 
-/// The random stream of one attempt at a trial; equal when the attempt is repeated.
+/// The random stream of one attempt at a trial; equal when the attempt is repeated, another after
+/// the cubes were rearranged.
 inline RandomStream trial_stream(std::uint64_t seed, std::string_view purpose,
                                  const TrialView& trial) {
-  return {seed, purpose, static_cast<std::uint64_t>(trial.trial_number),
+  const std::string again =
+      trial.n_reshuffles > 0 ? "/" + std::to_string(trial.n_reshuffles) : std::string();
+  return {seed, std::string(purpose) + again, static_cast<std::uint64_t>(trial.trial_number),
           static_cast<std::uint64_t>(trial.attempt)};
 }
 

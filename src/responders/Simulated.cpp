@@ -44,6 +44,8 @@ class Simulated : public Responder {
 
   void begin_trial(const TrialView& trial) override { trial_.emplace(parameters_, seed_, trial); }
 
+  void see_rearranged(const TrialView& trial) override { trial_->decision.offer(trial.offer); }
+
   HandSample hand(double t_s) override { return {trial_->hand.at(t_s), true}; }
 
   std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen) override {

@@ -38,6 +38,7 @@ TrialView trial_view(const SessionParts& parts, const TrialPlan& plan) {
                  parts.engine.screen().offer,
                  parts.engine.last_differed()};
   if (parts.responder.knows_plan()) view.truth = truth_of(parts.protocol, plan);
+  view.n_reshuffles = plan.n_reshuffles;
   return view;
 }
 
@@ -291,8 +292,10 @@ std::string AttemptRun::answer(const Action& action, double t_s) {
   if (std::string why = journal_.emit(*admission.admitted, Durability::acknowledged); !why.empty())
     return why;
   const Next& after = engine().next();
-  if (after.kind == Next::Kind::act && after.plan->n_reshuffles > n_reshuffles)
+  if (after.kind == Next::Kind::act && after.plan->n_reshuffles > n_reshuffles) {
     world_->rearrange(*after.plan);
+    parts_.responder.see_rearranged(trial_view(parts_, *after.plan));
+  }
   return {};
 }
 

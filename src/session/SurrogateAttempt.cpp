@@ -27,7 +27,7 @@ void SurrogateAttempt::run(const TrialPlan& plan) {
   journal_.emit_now(TrialStarted{});
   start_s_ = engine().last_s();
   now_s_ = 0;
-  const TrialView view = trial_view(parts_, plan);
+  TrialView view = trial_view(parts_, plan);
   stage_ = view.stage;
   arrange(plan);
   log(now_s_, CubesShown{});
@@ -55,7 +55,10 @@ void SurrogateAttempt::run(const TrialPlan& plan) {
     const Next& next = engine().next();
     if (next.kind != Next::Kind::act) break;
     wrong_slots.push_back(answer->actions.back().slot.value_or(0));
-    if (next.plan->n_reshuffles != n_reshuffles) arrange(*next.plan);
+    if (next.plan->n_reshuffles == n_reshuffles) continue;
+    arrange(*next.plan);
+    view = trial_view(parts_, *next.plan);
+    log(now_s_, CubesShown{});
   }
 }
 

@@ -19,6 +19,9 @@ class Decision {
  public:
   Decision(const ResponderParameters& parameters, std::uint64_t seed, const TrialView& trial);
 
+  /// What the trial offers now.
+  void offer(const std::any& offered) { offer_ = offered; }
+
   /// @param percepts_mm by cube, leftmost first
   /// @param wrong_slots incorrect choices so far, oldest first, if the task asks again
   Answer decide(std::span<const double> percepts_mm, std::span<const int> wrong_slots);

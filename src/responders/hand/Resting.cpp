@@ -34,6 +34,8 @@ class Resting : public Responder {
     delays_ = trial_stream(seed_, "delay", trial);
   }
 
+  void see_rearranged(const TrialView& trial) override { model_ = make_model_(trial); }
+
   HandSample hand(double) override { return {rest_, true}; }
 
   std::vector<TimedAction> see(const DisplayedFrame& frame, const ScreenState& screen) override {
