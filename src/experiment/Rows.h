@@ -55,13 +55,16 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"staircase", "", "procedure that set the level; NULL in catch trials"},
         NullIfEmpty{row.plan.staircase});
   visit(LogColumn{"reference_g", "g", "mass of the reference", "> 0"}, row.plan.reference_g);
-  visit(LogColumn{"level_g", "g", "presented comparison mass minus reference mass"},
+  visit(LogColumn{"level_g", "g",
+                  "presented comparison mass minus reference mass; of an adjustment, at its start"},
         row.plan.level_g);
   visit(LogColumn{"is_catch", "", "catch trial: the difference is 0 and no procedure is updated"},
         row.plan.is_catch);
   visit(LogColumn{"is_practice", "", "practice trial: excluded from all results"},
         row.plan.is_practice);
-  visit(LogColumn{"n_reshuffles", "", "number of times the cubes were shuffled again", ">= 0"},
+  visit(LogColumn{"n_reshuffles", "",
+                  "number of times the cubes were shuffled again, or one was replaced by a step",
+                  ">= 0"},
         row.plan.n_reshuffles);
   visit(LogColumn{"status", "", "status of the attempt"}, row.status);
   visit(LogColumn{"void_reason", "", "reason why the attempt is void"}, row.void_reason);

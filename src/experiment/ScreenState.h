@@ -62,7 +62,7 @@ struct ScreenState {
   std::optional<double> answers_from_s = {};
   bool can_validate = false;  ///< an answer of several steps (labels of all cubes) is complete
   bool is_check = false;      ///< trial: no one answers, the display is measured
-  bool try_again = false;     ///< the last answer was wrong, and the task asks again
+  bool try_again = false;     ///< the task asks again: the last answer was wrong, or a step
   int n_choices = 0;          ///< actions on cubes so far in this trial
   double wait_s = 0;          ///< pages: time until the button to continue appears
   std::map<std::string, std::string> entries = {};  ///< forms: earlier answers

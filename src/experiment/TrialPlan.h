@@ -52,14 +52,14 @@ struct TrialPlan {
   Task task;
   std::string condition = spring_technique;  ///< name of the technique
   std::string staircase;                     ///< empty: none (for example catch trials)
-  std::optional<double> reference_g;         ///< comparisons only
-  std::optional<double> level_g;             ///< comparison - reference, as presented
+  std::optional<double> reference_g;         ///< comparisons and adjustments only
+  std::optional<double> level_g;             ///< comparison - reference, as presented first
   bool is_catch = false;
   bool is_practice = false;
   std::vector<double> masses_g;        ///< by slot, leftmost first
   std::vector<double> table_friction;  ///< of each cube; empty: the protocol's friction
-  std::optional<int> reference_slot;   ///< comparisons only; slots count from 1
-  int n_reshuffles = 0;                ///< how often the cubes were shuffled again in this attempt
+  std::optional<int> reference_slot;   ///< likewise; slots count from 1
+  int n_reshuffles = 0;  ///< how often cubes were shuffled or replaced in this attempt
 
   int n_slots() const { return static_cast<int>(masses_g.size()); }
 };

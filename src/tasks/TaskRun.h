@@ -54,7 +54,7 @@ class TaskTrial {
   virtual ~TaskTrial() = default;
 
   const TaskDeclaration& declaration() const { return declaration_; }
-  /// As drawn, or shuffled again after an answer (n_reshuffles is then larger).
+  /// As drawn, or with other cubes after an answer (n_reshuffles is then larger).
   const TrialPlan& plan() const { return plan_; }
   const TrialResult& result() const { return result_; }
 

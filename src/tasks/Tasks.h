@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/Names.h"
+#include "tasks/Adjustment.h"
 #include "tasks/Comparison.h"
 #include "tasks/Estimation.h"
 #include "tasks/Introduction.h"
@@ -32,7 +33,7 @@ struct KindsOfTask {
   }
 };
 
-using Tasks = KindsOfTask<Introduction, Sorting, Comparison, Estimation, Judgment>;
+using Tasks = KindsOfTask<Introduction, Sorting, Comparison, Estimation, Judgment, Adjustment>;
 
 /// The task's offer from ScreenState::offer; empty: its default.
 template <typename Kind>

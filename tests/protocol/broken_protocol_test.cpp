@@ -126,7 +126,7 @@ const Broken blocks[] = {
      {"lacks \"kind\"", "\"sorting\""}},
     {"unknown_kind",
      {"\"sorting\"", "^\"questionnaire\""},
-     {"kind is \"questionnaire\"", "\"estimation\", \"judgment\" or \"break\""}},
+     {"kind is \"questionnaire\"", "\"judgment\", \"adjustment\" or \"break\""}},
     {"misspelled_kind_key",
      {"kind = \"sorting\"", "^knd = \"sorting\""},
      {"unknown key \"knd\"", "\"kind\"?"}},

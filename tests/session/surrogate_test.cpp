@@ -49,7 +49,8 @@ TEST_P(SurrogateOf, ATaskFinishesAndReplays) {
 }
 INSTANTIATE_TEST_SUITE_P(Protocols, SurrogateOf,
                          ::testing::Values("quick.toml", "sorting.toml", "paper.toml",
-                                           "examples/forced_choice.toml"));
+                                           "examples/forced_choice.toml",
+                                           "examples/adjustment.toml"));
 
 double mean_jnd_g(const std::string& db, double reference_g) {
   const Summary summary = analyze({{db}, {}, false, "test"});
