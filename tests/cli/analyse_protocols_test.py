@@ -54,6 +54,12 @@ def judgment(name, masses, cubes, question, **trials):
             f'trials = {{ {counts} }}\nquestion = "{question}"\n')
 
 
+def adjustment(**trials):
+    counts = ", ".join(f"{one} = {n}" for one, n in trials.items())
+    return ('[[block]]\nkind = "adjustment"\nname = "adjustment"\nreference_g = [100, 300]\n'
+            f"start_g = [50, 400]\nsteps_g = [80, 20]\ntrials = {{ {counts} }}\n")
+
+
 PROTOCOLS = {
     "two cubes": sorting([100, 400], C1=3, C2=3),
     "four cubes": sorting([15, 100, 250, 800], C1=2, C2=2),
@@ -72,6 +78,7 @@ PROTOCOLS = {
     + judgment("pairs", [100, 100, 400], 2, "dissimilarity.heaviness", C2=1, soft=1)
     + judgment("singles", [100, 400], 1, "borg_cr10.exertion", C2=2)
     + judgment("words", [100, 800], 2, "own.which", C2=2),
+    "adjustments": SOFT + adjustment(C2=2, soft=1),
     "no sorting": introduction("C2") + comparison(staircase("C2")),
 }
 # Charts and tables that name the conditions of a task, where there is something to show.
@@ -81,6 +88,7 @@ OF_COMPARISONS = {"choice_curves", "choices", "choices_by_level", "hits_and_fals
 OF_STAIRCASES = {"jnd", "staircase_health", "staircases", "jnd_against_start", "staircase_trials"}
 OF_ESTIMATION = {"estimation", "estimation_exponent", "estimation_by_participant"}
 OF_JUDGMENTS = {"judgment", "judgment_by_participant"}
+OF_ADJUSTMENTS = {"adjustment", "adjustment_by_participant"}
 WHICH = """[questionnaire.own]
 title = "Own"
 [[questionnaire.own.question]]
@@ -142,6 +150,12 @@ class Protocols(SessionTest):
         self.assertEqual(sum(answered.values()), completed("judgment"))
         self.assertEqual(sum(row["n_chosen"] for row in found["judgment_choices"]),
                          sum(n for (block, *_), n in answered.items() if block == "words"))
+        self.assertEqual(sum(row["n_trials"] for row in found["adjustment"]),
+                         completed("adjustment"))
+        for row in found["adjustment"]:
+            self.assertLess(row["low_percent"], row["bias_percent"], row)
+            self.assertLess(row["bias_percent"], row["high_percent"], row)
+            self.assertEqual(row["spread_g"] is None, row["condition"] == "soft", row)
         self.assertEqual(sum(row["n_trials"] for row in found["response_times"]),
                          sum(n for *_, n in trials))
         self.assertEqual(sum(row["n_attempts"] - row["n_void"] for row in
@@ -164,6 +178,7 @@ class Protocols(SessionTest):
                 self.assert_named(out, OF_COMPARISONS, of("comparison"))
                 self.assert_named(out, OF_ESTIMATION, of("estimation"))
                 self.assert_named(out, OF_JUDGMENTS, of("judgment"))
+                self.assert_named(out, OF_ADJUSTMENTS, of("adjustment"))
                 self.assert_named(out, OF_STAIRCASES, {
                     at for task, at, staircase, _ in trials
                     if task == "comparison" and (staircase or "")[:1].isdigit()})
@@ -174,7 +189,7 @@ class Protocols(SessionTest):
     def test_the_first_screen_covers_each_task(self):
         expected = {"sorting": "Sorting: ", "comparison": "Comparisons: ",
                     "introduction": "Introduction: ", "estimation": "Magnitude estimation: ",
-                    "judgment": "Judgment "}
+                    "judgment": "Judgment ", "adjustment": "Adjustment: "}
         (self.folder / "own.en.toml").write_text(WHICH)
         os.chdir(self.folder)
         for name, protocol in PROTOCOLS.items():

@@ -64,6 +64,15 @@ std::string in_words(const Judgment::Block& block) {
       trials_by_technique(block.trials, ""), n == 1 ? "mass" : "set of cubes");
 }
 
+std::string in_words(const Adjustment::Block& block) {
+  return fmt::format(
+      "They adjusted the mass of one of two cubes until it seemed as heavy as the other, of {} g "
+      "({} for each reference, in random order). It began at a random mass from {:g} to {:g} g and "
+      "changed by {:g} or {:g} g at each step, between {:g} and {:g} g.",
+      listed_g(block.reference_g.values), trials_by_technique(block.trials, ""), block.start_g[0],
+      block.start_g[1], block.steps_g[0], block.steps_g[1], block.lowest_g(), block.highest_g());
+}
+
 // Of up-down staircases with one rule: all but reference, start and steps.
 std::string rule_of(const UpDownConfig& rule, const Comparison::Block& block) {
   const bool correct = block.positive_answer == PositiveAnswer::correct_choice;
@@ -178,6 +187,7 @@ struct InWords {
     if (const auto* sorting = block.as<Sorting::Block>()) return in_words(*sorting);
     if (const auto* estimation = block.as<Estimation::Block>()) return in_words(*estimation);
     if (const auto* judgment = block.as<Judgment::Block>()) return in_words(*judgment);
+    if (const auto* adjustment = block.as<Adjustment::Block>()) return in_words(*adjustment);
     if (const auto* comparison = block.as<Comparison::Block>())
       return in_words(*comparison, citations);
     return fmt::format("Task \"{}\": {}.", block.name(), block.task().about);
