@@ -98,6 +98,9 @@ class Person:
             self.screen.key(1 + self.n_answers(trial_id) % 2)
         elif task == "comparison":
             self.screen.click("no_difference")
+        elif task == "adjustment":  # up to three steps, one of each button in turn
+            n = self.n_answers(trial_id)
+            self.screen.key(1 + (trial_id + n) % 4 if n < trial_id % 4 else "Return")
         else:
             given = dict(self.log(f"select slot, label from answer where trial_id = {trial_id} "
                                   "and action = 'label' order by answer_id"))
@@ -152,6 +155,31 @@ class Window(unittest.TestCase):
         late = query(self.db, "select count(*) from frame where present_s < simulated_s or "
                               "simulated_s < detected_s or detected_s < capture_s")
         self.assertEqual(late, [(0,)])
+        replay = subprocess.run([HEFT, "replay", "--db", self.db], capture_output=True, text=True)
+        self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
+
+    def test_fifty_adjustments_are_set_by_keys(self):
+        protocol = Path(self.folder.name) / "adjust.toml"
+        protocol.write_text(
+            'title = "Adjustments"\ndisplay_rate_hz = 15\n[screens]\nlanguage = "fr"\n'
+            'consent = false\nabout_you = false\n[[block]]\nkind = "adjustment"\n'
+            'name = "adjustment"\nreference_g = [100, 200]\nstart_g = [100, 400]\n'
+            'steps_g = [50, 10]\ntrials = 25\ncondition = "C2"\n')
+        person = self.start("--tracker", "hand", protocol=protocol)
+        person.take_part(400)
+        self.finish()
+        rows = query(self.db, "select t.reference_g + t.level_g, t.value, t.n_reshuffles, "
+                              "(select count(*) from answer a where a.trial_id = t.trial_id and "
+                              "a.action = 'adjust'), (select coalesce(sum(a.value), 0) from answer "
+                              "a where a.trial_id = t.trial_id and a.action = 'adjust'), "
+                              "(select mass_g from cube c where c.trial_id = t.trial_id and "
+                              "c.slot <> t.reference_slot) from trial t where status = 'completed'")
+        self.assertEqual(len(rows), 50)
+        for start_g, value_g, n_replaced, n_steps, steps_g, shown_g in rows:
+            self.assertAlmostEqual(start_g + steps_g, value_g, places=9)
+            self.assertEqual(value_g, shown_g)
+            self.assertEqual(n_replaced, n_steps)
+        self.assertGreater(sum(row[3] for row in rows), 50)
         replay = subprocess.run([HEFT, "replay", "--db", self.db], capture_output=True, text=True)
         self.assertEqual(replay.returncode, 0, replay.stdout + replay.stderr)
 
