@@ -196,6 +196,7 @@ void Engine::complete(double t_s, Changes& changes) {
   attempt_ = 1;
   n_voids_ = 0;
   run_->complete(*changes.trial, changes);
+  feedback_ = run_->feedback();
   keep_answer(*changes.trial, changes);
   if (run_->finished()) enter_block(block_ + 1);
 }
@@ -215,6 +216,7 @@ void Engine::veto_answer(const std::string& reason, double t_s, Changes& changes
   answered_->trials.pop_back();
   answered_->vetoed = true;
   last_differed_.reset();
+  feedback_.reset();
   row.status = TrialStatus::voided;
   row.void_reason = std::string(answer_vetoed) + reason;
   row.outcome.reset();
@@ -307,8 +309,10 @@ ScreenState Engine::screen() const {
   ScreenState screen;
   if (open_)
     screen = open_->screen();
-  else if (next_.kind == Next::Kind::trial)
+  else if (next_.kind == Next::Kind::trial) {
     screen = screen_of(*attempt_at(*next_.plan));
+    screen.feedback = feedback_;
+  }
   if (next_.kind == Next::Kind::demonstration) screen.screen = Screen::demonstration;
   if (next_.rest) screen.screen = Screen::rest;
   if (paused_) screen.screen = Screen::paused;

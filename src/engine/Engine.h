@@ -157,7 +157,7 @@ class Engine {
   };
   std::optional<Answered> answered_;
 
-  std::optional<bool> last_differed_;
+  std::optional<bool> last_differed_, feedback_;
   int attempt_ = 1;  // of the next or open trial
   int n_voids_ = 0;  // of that trial, consecutive, since the last resume
 

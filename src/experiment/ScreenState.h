@@ -54,6 +54,8 @@ struct ScreenState {
   int trial_number = 0, attempt = 0, n_reshuffles = 0;  ///< trial only
   /// Between two trials, how far the last trial's scene has faded out, 0...1.
   std::optional<double> faded = {};
+  /// In practice, before the next trial: whether the last answer was correct.
+  std::optional<bool> feedback = {};
   /// Trial: the task's Offer; empty: its default.
   std::any offer = {};
   bool can_answer = true;    ///< false before the cubes are shown or while touch_first holds

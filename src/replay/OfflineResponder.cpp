@@ -148,6 +148,7 @@ class SessionJudge {
     const auto logged = answered(block, plan, seed(), actions);
     const std::optional<bool> last_differed = std::exchange(last_differed_, std::nullopt);
     if (logged) last_differed_ = logged->answered_different();
+    if (plan.is_practice) return leave_out(attempt, is_practice);
     if (rows.empty()) return leave_out(attempt, lacks_frames);
     if (!logged || !logged->n_answers()) return leave_out(attempt, is_a_number);
     const Stage stage = stage_of(protocol, plan.n_slots());

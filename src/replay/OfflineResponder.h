@@ -38,6 +38,7 @@ struct Judgments {
 
 // Why trials are left out. A model without an answer: no_answer_of(its name).
 inline constexpr std::string_view is_voided = "voided", is_open = "not completed",
+                                  is_practice = "practice",
                                   lacks_frames = "without frames in the log",
                                   is_untouched = "in which no cube was touched",
                                   is_a_number = "answered by a number";

@@ -142,6 +142,14 @@ bool Comparison::Block::depends_on_answers() const {
   });
 }
 
+Comparison::Block Comparison::Block::for_practice() const {
+  Block block = *this;
+  block.catch_fraction = 0;
+  block.catch_trials.clear();
+  block.sides = Sides::random;
+  return block;
+}
+
 Comparison::Run::Run(const Block& block, std::uint64_t) : block_(block) {
   for (const ReferenceStaircase& entry : block_.staircases) staircases_.push_back(entry.staircase);
 }
@@ -239,6 +247,11 @@ Response Comparison::response_in(const TrialRow& row, PositiveAnswer positive_an
   else if (positive_answer == PositiveAnswer::correct_choice)
     response.positive = row.choice_correct.value_or(false);
   return response;
+}
+
+std::optional<bool> Comparison::is_correct(const TrialRow& row) {
+  if (row.plan.level_g == 0) return std::nullopt;
+  return row.chosen_slot ? row.choice_correct : row.outcome == "difference";
 }
 
 std::optional<std::string> Comparison::Run::survivor() const {

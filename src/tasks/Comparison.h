@@ -132,6 +132,8 @@ struct Comparison {
     double expected_trials() const;
     bool depends_on_answers() const;
     int most_cubes() const { return 2; }
+    /// Without catch trials, and with random sides: staircases do not advance in practice.
+    Block for_practice() const;
     bool is_forced() const { return answers == ComparisonAnswers::heavier; }
     bool has_three_answers() const { return answers == ComparisonAnswers::heavier_or_none; }
     std::string_view wording() const {
@@ -185,6 +187,9 @@ struct Comparison {
   /// The response that a completed trial gives to its procedure.
   static Response response_in(const TrialRow& row, PositiveAnswer positive_answer,
                               ComparisonAnswers answers = ComparisonAnswers::heavier_or_none);
+
+  /// None for equal masses.
+  static std::optional<bool> is_correct(const TrialRow& row);
 
   static Answer simulated(const Offer&, const Percepts& percepts, RandomStream& stream);
   static Answer blind(const Offer&, const WithoutPercepts& known, RandomStream& stream);

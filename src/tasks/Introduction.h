@@ -81,6 +81,11 @@ struct Introduction {
     int n_wrong_ = 0;
   };
 
+  /// On the first try.
+  static std::optional<bool> is_correct(const TrialRow& row) {
+    return row.first_choice_s == row.validated_s;
+  }
+
   static Answer simulated(const Offer&, const Percepts& percepts, RandomStream&);
   /// Chooses the cubes in turn, from the left.
   static Answer blind(const Offer&, const WithoutPercepts& known, RandomStream&);

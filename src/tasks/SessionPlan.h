@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "experiment/ScreenTexts.h"
+#include "tasks/Practice.h"
 #include "tasks/TaskRun.h"
 
 namespace heft {
@@ -66,7 +67,14 @@ class TaskBlock {
   /// Largest number of cubes in a trial.
   int most_cubes() const { return of_task_->most_cubes(); }
 
-  std::unique_ptr<TaskRun> run(std::uint64_t seed) const { return of_task_->run(seed); }
+  std::unique_ptr<TaskRun> run(std::uint64_t seed) const {
+    if (!practice) return of_task_->run(seed);
+    const std::uint64_t of_practice = RandomStream(seed, "practice/" + name()).bits();
+    return std::make_unique<PracticedRun>(*practice, of_task_->practice_run(of_practice),
+                                          of_task_->run(seed), of_task_->is_correct());
+  }
+  /// Whether it is defined for its trials if an answer is correct.
+  bool has_correct_answers() const { return of_task_->is_correct() != nullptr; }
   /// A new attempt at a trial.
   std::unique_ptr<TaskTrial> trial(const TrialPlan& plan, std::uint64_t seed) const {
     return of_task_->trial(plan, seed);
@@ -78,14 +86,25 @@ class TaskBlock {
   /// Which of the task's wordings its instructions have; empty: the usual one.
   std::string_view wording() const { return of_task_->wording(); }
   /// Names and values of its design choices, for reports.
-  std::vector<std::pair<std::string, std::string>> choices() const { return of_task_->choices(); }
-  /// Mean over simulated participants if the number depends on the answers.
-  double expected_trials() const { return of_task_->expected_trials(); }
-  bool depends_on_answers() const { return of_task_->depends_on_answers(); }
+  std::vector<std::pair<std::string, std::string>> choices() const {
+    auto choices = of_task_->choices();
+    if (practice) choices.emplace_back("practice in " + name(), practice->in_words());
+    return choices;
+  }
+  /// With all practice trials. Mean over simulated participants if the number depends on the
+  /// answers.
+  double expected_trials() const {
+    return of_task_->expected_trials() + (practice ? practice->trials : 0);
+  }
+  bool depends_on_answers() const {
+    return of_task_->depends_on_answers() || (practice && practice->until_correct > 0);
+  }
   /// Copies the question from a questionnaire, if present.
   void read_question(const std::map<std::string, Questionnaire>& questionnaires) {
     if (auto own = of_task_->with_question(questionnaires)) of_task_ = std::move(own);
   }
+
+  std::optional<Practice> practice = {};  ///< before its trials
 
   /// The block as its own type; null if it is another task's.
   template <BlockOfTask Block>
@@ -110,6 +129,8 @@ class TaskBlock {
     virtual const std::string& name() const = 0;
     virtual int most_cubes() const = 0;
     virtual std::unique_ptr<TaskRun> run(std::uint64_t seed) const = 0;
+    virtual std::unique_ptr<TaskRun> practice_run(std::uint64_t seed) const = 0;
+    virtual IsCorrect is_correct() const = 0;
     virtual std::unique_ptr<TaskTrial> trial(const TrialPlan& plan, std::uint64_t seed) const = 0;
     virtual std::optional<std::string> questionnaire() const = 0;
     virtual bool lacks_question() const = 0;
@@ -129,6 +150,15 @@ class TaskBlock {
     int most_cubes() const override { return block.most_cubes(); }
     std::unique_ptr<TaskRun> run(std::uint64_t seed) const override {
       return std::make_unique<typename Its::Run>(block, seed);
+    }
+    std::unique_ptr<TaskRun> practice_run(std::uint64_t seed) const override {
+      if constexpr (requires { block.for_practice(); })
+        return std::make_unique<typename Its::Run>(block.for_practice(), seed);
+      return run(seed);
+    }
+    IsCorrect is_correct() const override {
+      if constexpr (requires { &Its::is_correct; }) return &Its::is_correct;
+      return nullptr;
     }
     std::unique_ptr<TaskTrial> trial(const TrialPlan& plan, std::uint64_t seed) const override {
       return std::make_unique<typename Its::Trial>(block, plan, seed);

@@ -100,6 +100,8 @@ struct Sorting {
     std::vector<std::optional<Label>> labels_;  // by slot
   };
 
+  static std::optional<bool> is_correct(const TrialRow& row) { return row.outcome == "correct"; }
+
   static Answer simulated(const Offer&, const Percepts& percepts, RandomStream& stream);
   static Answer blind(const Offer&, const WithoutPercepts& known, RandomStream& stream);
   static std::vector<ScreenState> fullest_screens();

@@ -81,7 +81,8 @@ TEST_P(EveryTask, IsSimulatedReplayedJudgedAndExported) {
     const auto n_left_out = [&](std::string_view why) {
       return std::ranges::count(judgments.left_out, why, &LeftOutTrial::why);
     };
-    EXPECT_EQ(std::ssize(judgments.trials) + n_left_out(is_untouched) + n_left_out(is_a_number),
+    EXPECT_EQ(std::ssize(judgments.trials) + n_left_out(is_practice) + n_left_out(is_untouched) +
+                  n_left_out(is_a_number),
               stored.n_completed());
     EXPECT_EQ(judgments.trials.empty(), !touches) << "the others touch no cube";
     const auto of_task =

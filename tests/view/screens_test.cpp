@@ -355,6 +355,12 @@ TEST(Screens, AppearingCubesDoNotTurnThePage) {
   EXPECT_EQ(fixture.screens.show(state, true), Turn::page);
   EXPECT_THAT(names(fixture.page(), true), ElementsAre()) << "those cubes belong to the last trial";
   EXPECT_EQ(fixture.page().notice, "Next cubes");
+  for (const bool correct : {true, false}) {
+    state.feedback = correct;
+    fixture.screens.show(state, true);
+    EXPECT_EQ(fixture.page().notice, correct ? "Correct" : "Not correct") << "after practice";
+  }
+  state.feedback.reset();
   EXPECT_FLOAT_EQ(fixture.page().scene_opacity, 0.8f);
   state.faded.reset();
   EXPECT_EQ(fixture.screens.show(state, true), Turn::cubes);

@@ -219,15 +219,33 @@ class KeyReader {
   NamesInUse& names_;
 };
 
+void check_practice(TableReader& table, const TaskBlock& block) {
+  if (!block.practice) return;
+  const Practice& practice = *block.practice;
+  if (practice.needs_correctness() && !block.has_correct_answers())
+    table.mistake("practice",
+                  fmt::format("practice with feedback or until_correct, but answers of the task "
+                              "{} are neither correct nor incorrect; expected trials alone",
+                              block.task().name));
+  if (practice.until_correct > practice.trials)
+    table.mistake("practice", fmt::format("until_correct is {}, expected at most trials {}",
+                                          practice.until_correct, practice.trials));
+}
+
 template <typename Kind>
 Block read_trials(TableReader& table, NamesInUse& names) {
   typename Kind::Block block;
+  std::optional<Practice> practice;
   table.read("name", block.name);
   KeyReader keys(table, names);
   block.visit_keys(keys);
+  keys(ConfigKey{"practice", "before the trials"}, practice);
   table.close();
   table.note(block.check());
-  return block;
+  TaskBlock trials(std::move(block));
+  trials.practice = practice;
+  check_practice(table, trials);
+  return trials;
 }
 
 Block read_break(TableReader& table, NamesInUse&) {

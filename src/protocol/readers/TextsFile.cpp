@@ -32,7 +32,8 @@ constexpr std::array required_pages{
              "eyesight_lenses ar_experience ar_experience_never ar_experience_once_or_twice "
              "ar_experience_several_times ar_experience_often"},
     PageKeys{"demonstration", "title text"},
-    PageKeys{"trial", "wait_for_cubes touch_every_cube", "next_cubes drag_effector"},
+    PageKeys{"trial", "wait_for_cubes touch_every_cube",
+             "next_cubes drag_effector correct not_correct"},
     PageKeys{"rest", "title text time_left"},
     PageKeys{"paused", "title text"},
     PageKeys{"how_decided",
@@ -255,13 +256,16 @@ void require_words(const ScreenTexts& texts, const SessionPlan& plan, const std:
   for (const Block& block : plan.blocks) {
     const auto* trials = std::get_if<TaskBlock>(&block);
     if (!trials) continue;
-    for (const TaskPage& page : pages_of(trials->task().name)) {
-      std::istringstream words{page.needed(trials->wording())};
+    const auto need = [&](const std::string& page, const std::string& keys) {
+      std::istringstream words{keys};
       for (std::string key; words >> key;)
-        if (std::string text = fmt::format("[{}] {}", page.page, key);
-            texts.if_any(page.page, key).empty() && std::ranges::count(missing, text) == 0)
+        if (std::string text = fmt::format("[{}] {}", page, key);
+            texts.if_any(page, key).empty() && std::ranges::count(missing, text) == 0)
           missing.push_back(std::move(text));
-    }
+    };
+    for (const TaskPage& page : pages_of(trials->task().name))
+      need(page.page, page.needed(trials->wording()));
+    if (trials->practice && trials->practice->feedback) need("trial", "correct not_correct");
   }
   if (!missing.empty())
     throw Error(fmt::format("{} lacks texts of the protocol's tasks: {}; add them, or use another "

@@ -76,6 +76,9 @@ void add_put_back(PageBuilder& builder, const Rect& area) {
 void add_hint(PageBuilder& builder) {
   if (builder.state.is_check)
     builder.page.notice = builder.text_if_any("setting_up", "title");
+  else if (builder.state.feedback)
+    builder.page.notice =
+        builder.text("trial", *builder.state.feedback ? "correct" : "not_correct");
   else if (builder.state.faded)
     builder.page.notice = builder.text_if_any("trial", "next_cubes");
   else if (!builder.memory.cubes_shown)
