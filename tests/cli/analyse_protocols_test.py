@@ -60,6 +60,11 @@ def adjustment(**trials):
             f"start_g = [50, 400]\nsteps_g = [80, 20]\ntrials = {{ {counts} }}\n")
 
 
+def practiced(block):
+    head, keys = block.split("name = ", 1)
+    return f"{head}practice = {{ trials = 3, until_correct = 2, feedback = true }}\nname = {keys}"
+
+
 PROTOCOLS = {
     "two cubes": sorting([100, 400], C1=3, C2=3),
     "four cubes": sorting([15, 100, 250, 800], C1=2, C2=2),
@@ -79,6 +84,7 @@ PROTOCOLS = {
     + judgment("singles", [100, 400], 1, "borg_cr10.exertion", C2=2)
     + judgment("words", [100, 800], 2, "own.which", C2=2),
     "adjustments": SOFT + adjustment(C2=2, soft=1),
+    "practice": practiced(sorting([100, 400], C2=3)) + practiced(comparison(staircase("C2"))),
     "no sorting": introduction("C2") + comparison(staircase("C2")),
 }
 # Charts and tables that name the conditions of a task, where there is something to show.
@@ -111,7 +117,17 @@ class Protocols(SessionTest):
         self.run_heft("analyse", "--db", db, "--out", out)
         found = json.loads((out / "summary.json").read_text())
         trials = query(db, "select task, condition, staircase, count(*) from trial where "
-                           "status = 'completed' group by task, condition, staircase")
+                           "status = 'completed' and not is_practice group by task, condition, staircase")
+        practice = query(db, "select task, count(*), min(level_g), max(staircase) from trial where "
+                             "is_practice group by task")
+        self.assertEqual(found["participant_flow"]["n_practice_trials"],
+                         sum(n for _, n, *_ in practice))
+        self.assertEqual({task for task, *_ in practice},
+                         {"sorting", "comparison"} if name == "practice" else set())
+        for task, n, level_g, procedure in practice:
+            self.assertTrue(3 * 2 <= n <= 3 * 3, (task, n))
+            self.assertEqual((level_g, procedure),
+                             (400, None) if task == "comparison" else (None, None))
         return found, out, trials
 
     def screen(self, *words):
@@ -201,7 +217,7 @@ class Protocols(SessionTest):
                     tasks = {task for [task] in query(self.folder / db, "select task from trial")}
                     for task in tasks:
                         n = query(self.folder / db, "select count(*) from trial where status = "
-                                                    f"'completed' and task = '{task}'")[0][0]
+                                                    f"'completed' and not is_practice and task = '{task}'")[0][0]
                         self.assertIn(f"{n} {task}", screen)
                     shown = [expected[task] in screen for task in tasks]
                     self.assertTrue(all(shown) or "more: see the tables" in screen, screen)

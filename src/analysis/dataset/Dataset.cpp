@@ -204,6 +204,8 @@ using DeclaredByText = std::map<std::pair<std::string, std::string>, Declared>;
 SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& declared_by_text) {
   SessionData data = join_rows(log.session(id), {log.trials(id), log.cubes(id), log.answers(id),
                                                  log.reversals(id), log.estimates(id)});
+  data.n_practice = static_cast<int>(std::erase_if(
+      data.attempts, [](const Attempt& attempt) { return attempt.trial.plan.is_practice; }));
   data.setups = log.setups(id);
   const std::string& protocol_text = data.session.header.protocol_text;
   const SessionConfig config = data.setups.empty() ? SessionConfig{} : data.setups.front().setup;

@@ -84,8 +84,9 @@ struct Noted {
 
 struct SessionData {
   SessionRow session;
-  std::string lab{};  ///< see lab_names(); of a single log empty
-  std::vector<Attempt> attempts;
+  std::string lab{};              ///< see lab_names(); of a single log empty
+  std::vector<Attempt> attempts;  ///< without practice
+  int n_practice = 0;             ///< attempts at practice trials
   std::vector<EstimateRow> estimates;
   PictureCounts pictures;
   EventCounts events;

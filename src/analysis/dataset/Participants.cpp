@@ -70,7 +70,8 @@ void FlowFold::add(const SessionData& data) {
   Way& way = ways_[data.participant()];
   way.declined = way.declined || !data.events.consented.value_or(true);
   way.agreed = way.agreed || data.events.consented.value_or(false);
-  way.started = way.started || !data.attempts.empty();
+  way.started = way.started || !data.attempts.empty() || data.n_practice > 0;
+  n_practice_trials_ += data.n_practice;
   way.finished = way.finished || data.finished();
   way.last = data.session.state;
 }
@@ -80,6 +81,7 @@ ParticipantFlow FlowFold::result(std::span<const ParticipantRow> participants,
   ParticipantFlow flow;
   flow.n_asked = static_cast<int>(ways_.size()) + n_withdrawn;
   flow.n_withdrawn = n_withdrawn;
+  flow.n_practice_trials = n_practice_trials_;
   for (const auto& [participant, way] : ways_) {
     flow.n_declined += way.declined && !way.agreed && !way.started ? 1 : 0;
     flow.n_started += way.started ? 1 : 0;

@@ -57,6 +57,7 @@ struct ParticipantFlow {
   int n_started = 0;                    ///< began a trial
   int n_finished = 0;                   ///< finished a session
   int n_analyzed = 0;                   ///< in the figures
+  int n_practice_trials = 0;            ///< attempts at practice trials, of all
   std::map<std::string, int> excluded;  ///< left out, by the rule that did it
   std::map<std::string, int>
       unfinished;  ///< started but finished none, by the last session's state
@@ -78,6 +79,7 @@ class FlowFold {
     SessionState last = SessionState::running;
   };
   std::map<std::string, Way> ways_;
+  int n_practice_trials_ = 0;
 };
 
 }  // namespace heft

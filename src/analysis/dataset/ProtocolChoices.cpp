@@ -33,6 +33,11 @@ std::string contacts_text(double compliance_m_per_n) {
              : fmt::format("yield {:g} mm per newton at each point", 1e3 * compliance_m_per_n);
 }
 
+bool has_practice(const Block& block) {
+  const auto* trials = std::get_if<TaskBlock>(&block);
+  return trials && trials->practice;
+}
+
 // Collects the choices of one protocol; of blocks too, which may differ in theirs.
 class Collector {
  public:
@@ -47,7 +52,7 @@ class Collector {
     add("contacts", contacts_text(protocol.contact_compliance_m_per_n));
     add("effector between pictures", input_text(protocol.simulator.input));
     add("answers need contact with every cube", protocol.require_contact ? "yes" : "no");
-    add("practice and feedback", "none");
+    if (std::ranges::none_of(protocol.blocks, has_practice)) add("practice and feedback", "none");
     for (const Technique& technique : protocol.techniques) {
       std::string text = std::visit(LawText{}, technique.law);
       if (const auto compliance = technique.contact_compliance_m_per_n)

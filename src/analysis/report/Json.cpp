@@ -162,10 +162,15 @@ ordered_json hypotheses_json(const Summary& summary) {
 }
 
 ordered_json flow_json(const ParticipantFlow& flow) {
-  return {{"n_asked", flow.n_asked},       {"n_withdrawn", flow.n_withdrawn},
-          {"n_declined", flow.n_declined}, {"n_started", flow.n_started},
-          {"n_finished", flow.n_finished}, {"n_analyzed", flow.n_analyzed},
-          {"excluded", flow.excluded},     {"unfinished", flow.unfinished}};
+  return {{"n_asked", flow.n_asked},
+          {"n_withdrawn", flow.n_withdrawn},
+          {"n_declined", flow.n_declined},
+          {"n_started", flow.n_started},
+          {"n_finished", flow.n_finished},
+          {"n_analyzed", flow.n_analyzed},
+          {"n_practice_trials", flow.n_practice_trials},
+          {"excluded", flow.excluded},
+          {"unfinished", flow.unfinished}};
 }
 }  // namespace
 

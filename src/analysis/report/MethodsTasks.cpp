@@ -183,6 +183,12 @@ struct InWords {
     return fmt::format("A break of at least {:g} s followed.", block.least_duration_s);
   }
   std::string operator()(const TaskBlock& block) const {
+    std::string text = trials_of(block);
+    if (block.practice)
+      text += fmt::format(" Practice came first: {}.", block.practice->in_words());
+    return text;
+  }
+  std::string trials_of(const TaskBlock& block) const {
     if (const auto* introduction = block.as<Introduction::Block>()) return in_words(*introduction);
     if (const auto* sorting = block.as<Sorting::Block>()) return in_words(*sorting);
     if (const auto* estimation = block.as<Estimation::Block>()) return in_words(*estimation);

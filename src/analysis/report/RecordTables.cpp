@@ -167,6 +167,8 @@ Table flow_table(const Summary& summary) {
   add("finished", flow.n_finished, "a session or more");
   for (const auto& [rule, n] : flow.excluded) add("excluded", n, rule);
   add("analyzed", flow.n_analyzed, "in the figures");
+  if (flow.n_practice_trials > 0)
+    add("practice trials", flow.n_practice_trials, "attempts, of all participants; in no figure");
   return table;
 }
 
