@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace heft {
 
@@ -46,6 +47,25 @@ std::optional<std::size_t> next_staircase(std::span<const Procedure> staircases,
     return candidates.front();
   if (config.interleave == Interleave::round_robin) return next_in_turn(candidates, previous);
   return candidates[stream.below(candidates.size())];
+}
+
+InterleavedRun::InterleavedRun(InterleavedProcedures procedures)
+    : procedures_(std::move(procedures)) {
+  open_trial();
+}
+
+Update InterleavedRun::respond(const Response& response, std::optional<double> shown) {
+  const Update update = procedures_.staircases[*current_].respond(response, shown.value_or(level_));
+  previous_ = current_;
+  open_trial();
+  return update;
+}
+
+void InterleavedRun::open_trial() {
+  ++trial_;
+  RandomStream stream(procedures_.seed, "interleave", static_cast<std::uint64_t>(trial_));
+  current_ = next_staircase(procedures_.staircases, procedures_.interleaving, previous_, stream);
+  if (current_) level_ = staircase().next_level(level_stream(procedures_.seed, staircase().name()));
 }
 
 }  // namespace heft

@@ -1,4 +1,4 @@
-// Interleaving: the staircase that the next trial belongs to.
+// Interleaving: the staircase that the next trial belongs to, and whole runs of several.
 #pragma once
 
 #include <array>
@@ -55,5 +55,36 @@ std::optional<std::size_t> next_staircase(std::span<const Procedure> staircases,
                                           const InterleaveConfig& config,
                                           std::optional<std::size_t> previous,
                                           RandomStream& stream);
+
+/// A run of interleaved procedures: the open trial, its response, the next trial. Trials are the
+/// same for the same procedures, seed and responses.
+class InterleavedRun {
+ public:
+  /// @throws InvalidConfig
+  explicit InterleavedRun(InterleavedProcedures procedures);
+
+  bool finished() const { return !current_; }  ///< all staircases are
+  int trial() const { return trial_; }  ///< number of the open trial, from 1, void ones count
+  // Undefined once finished.
+  const Procedure& staircase() const { return procedures_.staircases[*current_]; }
+  double level() const { return level_; }
+
+  /// Records the response to the open trial, and opens the next one.
+  /// @param shown the presented level if it differs from level(), within +-largest_level
+  Update respond(const Response& response, std::optional<double> shown = std::nullopt);
+  /// The staircases are unchanged; the next trial is drawn again.
+  void void_trial() { open_trial(); }
+
+  const std::vector<Procedure>& staircases() const { return procedures_.staircases; }
+
+ private:
+  void open_trial();
+
+  InterleavedProcedures procedures_;
+  std::optional<std::size_t> current_;   ///< staircase of the open trial
+  std::optional<std::size_t> previous_;  ///< of the last completed trial
+  int trial_ = 0;
+  double level_ = 0;
+};
 
 }  // namespace heft

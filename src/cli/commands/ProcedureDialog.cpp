@@ -96,11 +96,11 @@ std::string finished_event(const Procedure& staircase, StopReason reason) {
 
 ProcedureDialog::ProcedureDialog(InterleavedProcedures procedures, std::ostream& out,
                                  bool with_posterior)
-    : procedures_(std::move(procedures)), out_(out), with_posterior_(with_posterior) {}
+    : run_(std::move(procedures)), out_(out), with_posterior_(with_posterior) {}
 
 void ProcedureDialog::run(std::istream& in) {
-  next_trial();
-  for (int line_number = 1; current_; ++line_number) {
+  write_trial();
+  for (int line_number = 1; !run_.finished(); ++line_number) {
     const std::optional<InputLine> line = read_line(in);
     if (!line) return;
     if (line->too_long)
@@ -120,29 +120,27 @@ void ProcedureDialog::take(const std::string& line, int line_number) {
     write(error_event(line_number, error.what()));
     return;
   }
-  if (!answer.is_void) respond(answer);
-  next_trial();
+  if (answer.is_void)
+    run_.void_trial();
+  else
+    respond(answer);
+  write_trial();
 }
 
 void ProcedureDialog::respond(const AnswerLine& answer) {
-  Procedure& staircase = procedures_.staircases[*current_];
-  const Update update = staircase.respond(answer.response, answer.level.value_or(level_));
-  previous_ = current_;
-  if (update.reversal) write(reversal_event(trial_, staircase.name(), *update.reversal));
+  const int trial = run_.trial();
+  const Procedure& staircase = run_.staircase();
+  const Update update = run_.respond(answer.response, answer.level);
+  if (update.reversal) write(reversal_event(trial, staircase.name(), *update.reversal));
   if (with_posterior_ && staircase.is_bayesian())
-    write(posterior_event(trial_, staircase.name(), staircase.posterior()));
+    write(posterior_event(trial, staircase.name(), staircase.posterior()));
   if (update.finish) write(finished_event(staircase, *update.finish));
 }
 
-void ProcedureDialog::next_trial() {
-  ++trial_;
-  RandomStream stream(procedures_.seed, "interleave", static_cast<std::uint64_t>(trial_));
-  current_ = next_staircase(procedures_.staircases, procedures_.interleaving, previous_, stream);
-  if (!current_) return write(R"({"event":"done"})");
-  const Procedure& staircase = procedures_.staircases[*current_];
-  level_ = staircase.next_level(level_stream(procedures_.seed, staircase.name()));
-  const bool recommended = with_posterior_ && staircase.is_bayesian();
-  write(trial_event(trial_, staircase.name(), level_, recommended));
+void ProcedureDialog::write_trial() {
+  if (run_.finished()) return write(R"({"event":"done"})");
+  const bool recommended = with_posterior_ && run_.staircase().is_bayesian();
+  write(trial_event(run_.trial(), run_.staircase().name(), run_.level(), recommended));
 }
 
 void ProcedureDialog::write(const std::string& json) {
@@ -151,7 +149,7 @@ void ProcedureDialog::write(const std::string& json) {
     throw Error(
         fmt::format("cannot write to the standard output, in trial {}: its reader "
                     "has closed it or its disk is full; the session ends here",
-                    trial_));
+                    run_.trial()));
 }
 
 namespace {

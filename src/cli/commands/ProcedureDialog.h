@@ -38,16 +38,12 @@ class ProcedureDialog {
  private:
   void take(const std::string& line, int line_number);
   void respond(const AnswerLine& answer);
-  void next_trial();
+  void write_trial();
   void write(const std::string& json);
 
-  InterleavedProcedures procedures_;
+  InterleavedRun run_;
   std::ostream& out_;
   bool with_posterior_;
-  std::optional<std::size_t> current_;   ///< staircase of the open trial; none: all are finished
-  std::optional<std::size_t> previous_;  ///< of the last completed trial
-  int trial_ = 0;                        ///< number of the open trial
-  double level_ = 0;                     ///< of the open trial
 };
 
 }  // namespace heft::cli
