@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <tuple>
 #include <vector>
@@ -17,7 +16,6 @@
 #include "protocol/readers/ProtocolTables.h"
 #include "protocol/toml/TableReader.h"
 #include "protocol/toml/TomlDocument.h"
-#include "psychophysics/Interleaving.h"
 #include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {
@@ -126,30 +124,6 @@ FileKind recognized_kind(const std::string& text, const std::string& file) {
                "file (language), a questionnaire file ([questionnaire.NAME]), a display file "
                "(eye_distance_mm) or a study plan (study)");
   throw mistakes.as_error();
-}
-
-InterleavedProcedures parse_procedure(const std::string& text, const std::string& file) {
-  Mistakes mistakes(file);
-  const TomlTable root = parse_toml(text, file);
-  TableReader reader(root, mistakes);
-  InterleavedProcedures config;
-  reader.require({"staircase"});
-  reader.read("seed", config.seed, {0, std::numeric_limits<std::int64_t>::max()});
-  config.interleaving = read_interleaving(reader);
-  UniqueNames names("staircase");
-  for (TableReader& table : reader.tables("staircase")) {
-    const auto settings = read_staircase(table);
-    if (!settings) continue;
-    names.check(table, settings->name);
-    config.staircases.push_back(settings->procedure());
-  }
-  reader.close();
-  mistakes.throw_if_any();
-  return config;
-}
-
-InterleavedProcedures load_procedure(const std::string& path) {
-  return parse_procedure(read_text_file(path), path);
 }
 
 SyntheticSettings parse_synthetic_camera(const std::string& text, const std::string& file) {

@@ -1,6 +1,11 @@
+// Staircases of protocols, and procedure files.
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "base/files/Printable.h"
+#include "base/files/TextFile.h"
+#include "protocol/readers/Files.h"
 #include "protocol/readers/ProtocolTables.h"
 
 namespace heft {
@@ -53,6 +58,30 @@ void UniqueNames::check(TableReader& table, const std::string& name) {
     table.mistake("name", fmt::format("another {} is named \"{}\" (line {}), expected "
                                       "another name",
                                       what_, printable(name), first->second));
+}
+
+InterleavedProcedures parse_procedure(const std::string& text, const std::string& file) {
+  Mistakes mistakes(file);
+  const TomlTable root = parse_toml(text, file);
+  TableReader reader(root, mistakes);
+  InterleavedProcedures config;
+  reader.require({"staircase"});
+  reader.read("seed", config.seed, {0, std::numeric_limits<std::int64_t>::max()});
+  config.interleaving = read_interleaving(reader);
+  UniqueNames names("staircase");
+  for (TableReader& table : reader.tables("staircase")) {
+    const auto settings = read_staircase(table);
+    if (!settings) continue;
+    names.check(table, settings->name);
+    config.staircases.push_back(settings->procedure());
+  }
+  reader.close();
+  mistakes.throw_if_any();
+  return config;
+}
+
+InterleavedProcedures load_procedure(const std::string& path) {
+  return parse_procedure(read_text_file(path), path);
 }
 
 }  // namespace heft
