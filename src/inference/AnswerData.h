@@ -1,7 +1,7 @@
-// Files of answers for a fit: CSV with a header. Psychometric: columns x, n_positive and n, or a
-// row a trial with x and response (0 or 1). Indecision: level_g and answer (comparison, reference,
-// none). Columns stand in any order, and others may stand beside them; `person` or `participant`
-// says who answered.
+// Files of answers and their fits: CSV with a header. Psychometric: columns x, n_positive and n, or
+// a row a trial with x and response (0 or 1). Indecision: level_g and answer (comparison,
+// reference, none). Columns stand in any order, and others may stand beside them; `person` or
+// `participant` says who answered.
 #pragma once
 
 #include <optional>
@@ -39,7 +39,29 @@ struct AnswerFormat {
 std::vector<AnswerGroup> parse_answers(std::string_view text, const std::string& file,
                                        const AnswerFormat& format);
 
-/// @throws Error when the file can't be read, as parse_answers
-std::vector<AnswerGroup> load_answers(const std::string& path, const AnswerFormat& format);
+/// How to fit, in the words of `heft fit`; none: its default.
+struct FitRequest {
+  std::string model;                                ///< of FitModel
+  std::optional<std::string> function{}, scale{};   ///< of PsychometricShape, LevelScale
+  std::optional<std::string> guess{}, lapse{};      ///< "free" or a number
+  std::optional<std::string> group_by{}, person{};  ///< columns
+};
+
+/// The fit of one group.
+struct NamedFit {
+  std::optional<std::string> group;
+  Fit fit;
+  std::map<std::string, OwnThreshold> people{};  ///< of a mixed fit
+};
+
+struct FittedAnswers {
+  std::vector<NamedFit> fits;
+  std::string warning;  ///< people are pooled; empty: there is nothing to warn of
+};
+
+/// One fit for each group; with `person` the mixed model of heft analyse, in which people differ.
+/// @throws Error (usage) for options that are wrong or don't suit each other; as parse_answers
+FittedAnswers fit_answers(std::string_view text, const std::string& file,
+                          const FitRequest& request);
 
 }  // namespace heft

@@ -2,14 +2,13 @@
 // screen.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "analysis/dataset/Summary.h"
-#include "inference/MixedIndecision.h"
+#include "inference/AnswerData.h"
 
 namespace heft {
 
@@ -51,12 +50,6 @@ std::vector<std::string> attention_sentences(const Summary& summary);
 
 /// UTF-8, indented by two spaces, ending in a newline. Percentages are 0...100.
 std::string as_json(const Summary& summary);
-
-struct NamedFit {
-  std::optional<std::string> group;
-  Fit fit;
-  std::map<std::string, OwnThreshold> people{};  ///< of a mixed fit
-};
 
 /// A table a group, and why there is no threshold where there is none; of a mixed fit a second
 /// table of each person's threshold.

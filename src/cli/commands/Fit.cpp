@@ -1,11 +1,7 @@
 // heft fit: the estimators for any data.
-#include "inference/Fit.h"
-
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -19,8 +15,8 @@ namespace heft::cli {
 
 namespace {
 struct FitCommandOptions {
-  std::string data, model;
-  std::optional<std::string> function, scale, guess, lapse, group_by, person;
+  std::string data;
+  FitRequest request;
   bool json = false;
 };
 
@@ -29,75 +25,14 @@ std::vector<std::string> names_of() {
   return {EnumNames<Enum>::names.begin(), EnumNames<Enum>::names.end()};
 }
 
-// None: free.
-std::optional<double> share(const std::string& option, const std::optional<std::string>& given) {
-  if (!given) return 0;
-  if (*given == "free") return std::nullopt;
-  const std::optional<double> value = number_in(*given);
-  if (!value || *value < 0 || *value >= 1)
-    throw Error(fmt::format("{} is \"{}\", expected \"free\" or a number from 0 to below 1", option,
-                            *given),
-                ExitCode::usage);
-  return value;
-}
-
-FitOptions fit_options(const FitCommandOptions& options, FitModel model) {
-  FitOptions fit;
-  fit.guess = share("--guess", options.guess);
-  fit.lapse = share("--lapse", options.lapse);
-  if (model == FitModel::indecision && (options.function || options.scale || options.guess))
-    throw Error("--function, --scale and --guess belong to --model psychometric", ExitCode::usage);
-  if (options.person && (model != FitModel::indecision || options.lapse))
-    throw Error("--person belongs to --model indecision, with a lapse rate that is fitted",
-                ExitCode::usage);
-  if (fit.guess.value_or(0) + fit.lapse.value_or(0) >= 1)
-    throw Error("--guess and --lapse add up to 1 or more, expected less than 1", ExitCode::usage);
-  if (options.function) fit.function.shape = *named<PsychometricShape>(*options.function);
-  if (options.scale) fit.function.scale = *named<LevelScale>(*options.scale);
-  return fit;
-}
-
-// As heft analyse does: differences between people are in the model.
-NamedFit fit_people(const AnswerGroup& group) {
-  const MixedFit mixed = fit_mixed_indecision(group.people);
-  NamedFit named{group.name, mixed.summary(), {}};
-  named.fit.n_levels = group.answers.size();
-  for (const auto& [person, answers] : group.people)
-    named.people[person] = own_threshold(answers, mixed.own(person));
-  return named;
-}
-
-// Staircases show larger levels to less sensitive people, so pooling overestimates the threshold.
-void warn_of_pooled(std::span<const AnswerGroup> groups, FitModel model) {
-  const auto most = std::ranges::max_element(
-      groups, {}, [](const AnswerGroup& group) { return group.people.size(); });
-  if (most == groups.end() || most->people.size() < 2) return;
-  say("heft: warning: {}trials of {} people are pooled into one fit. If staircases chose the "
-      "levels, the threshold is overestimated (1.4 to 2.4 times in simulations), because "
-      "insensitive people see larger levels. {}\n",
-      most->name ? *most->name + ": " : "", most->people.size(),
-      model == FitModel::indecision ? "Name the column of people: --person COLUMN."
-                                    : "Fit one person at a time: --by COLUMN.");
-}
-
 void fit(const FitCommandOptions& options) {
-  const FitModel model = *named<FitModel>(options.model);
-  const FitOptions how = fit_options(options, model);
-  std::vector<NamedFit> fits;
-  const std::vector<AnswerGroup> groups = load_answers(
-      options.data, {model, options.group_by, how.function.takes_logarithm(), options.person});
-  if (!options.person) warn_of_pooled(groups, model);
-  for (const AnswerGroup& group : groups)
-    if (options.person)
-      fits.push_back(fit_people(group));
-    else
-      fits.push_back({group.name, model == FitModel::indecision
-                                      ? fit_indecision(group.answers, how)
-                                      : fit_psychometric(group.answers, how)});
+  const FittedAnswers fitted =
+      fit_answers(read_text_file(options.data), options.data, options.request);
+  if (!fitted.warning.empty()) say("heft: warning: {}\n", fitted.warning);
   if (options.json)
-    fmt::print("{}", fits_as_json(fits));
+    fmt::print("{}", fits_as_json(fitted.fits));
   else
-    print("{}", fits_as_text(fits));
+    print("{}", fits_as_text(fitted.fits));
 }
 }  // namespace
 
@@ -127,21 +62,21 @@ void add_fit(Command& app) {
        "Maximum-likelihood estimates; SE from the observed information; 95 % profile intervals.",
        "If the threshold is not identifiable, the reason is printed instead."});
   command.add_option("DATA.csv", &options->data, "the answers").required();
-  command.add_option("--model", &options->model, "the model to fit")
+  command.add_option("--model", &options->request.model, "the model to fit")
       .required()
       .one_of(names_of<FitModel>());
-  command.add_option("--function", &options->function, "default: cumulative_normal")
+  command.add_option("--function", &options->request.function, "default: cumulative_normal")
       .one_of(names_of<PsychometricShape>());
   command
-      .add_option("--scale", &options->scale,
+      .add_option("--scale", &options->request.scale,
                   "what x is, for Weibull's formula; the others take x as it is. Default: linear")
       .one_of(names_of<LevelScale>());
-  command.add_option("--guess", &options->guess,
+  command.add_option("--guess", &options->request.guess,
                      "guess rate: fixed, or \"free\" up to 0.5. Default: 0");
-  command.add_option("--lapse", &options->lapse,
+  command.add_option("--lapse", &options->request.lapse,
                      "lapse rate: fixed, or \"free\" up to 0.5. Default: 0");
-  command.add_option("--by", &options->group_by, "one fit for each value of this column");
-  command.add_option("--person", &options->person,
+  command.add_option("--by", &options->request.group_by, "one fit for each value of this column");
+  command.add_option("--person", &options->request.person,
                      "indecision: the column of who answered; one fit of all people, who differ");
   command.add_flag("--json", options->json, "JSON on stdout instead of tables");
   command.does([options] { fit(*options); });
