@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -57,6 +58,10 @@ struct ExportRequest {
 ///   written
 std::vector<ExportedFile> export_logs(const ExportRequest& request,
                                       const std::function<void(double)>& progress);
+
+/// The unit of each column of the exports and the log, as in dictionary.csv; without those that
+/// have none.
+std::map<std::string, std::string> units_of_columns();
 
 /// @throws Error (usage) if the folder is not empty or no folder
 void refuse_filled_folder(const std::string& folder);

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "experiment/Rows.h"
+#include "record/export/Export.h"
 #include "record/schema/EventRow.h"
 #include "record/schema/RowSql.h"
 
@@ -289,6 +290,14 @@ std::vector<ExportTable> export_tables(const ParticipantColumns& participants) {
                       {session_id(), participant(), person(), lab(), trial_id(),
                        id("frame_id", "id in order of writing")}),
   };
+}
+
+std::map<std::string, std::string> units_of_columns() {
+  std::map<std::string, std::string> units;
+  for (const ExportTable& table : export_tables({}))
+    for (const ExportColumn& column : table.columns)
+      if (!column.unit.empty()) units.try_emplace(column.name, column.unit);
+  return units;
 }
 
 ExportTable behavior_table() {
