@@ -1,4 +1,4 @@
-# Rules for `cmake --install` and `cpack`. Components: heft with its data, bench, and the libraries
+# Rules for `cmake --install` and `cpack`. Components: heft with its data, bench, python, and the libraries
 # psychophysics, inference, engine and physics, each of which can be installed without the ones that it
 # does not use.
 include(CMakePackageConfigHelpers)
@@ -12,6 +12,12 @@ install(FILES src/record/export/analysis.R
         DESTINATION ${CMAKE_INSTALL_DATADIR}/heft/src/record/export COMPONENT heft)
 install(FILES README.md LICENSE CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT heft)
 install(TARGETS heft_bench_program COMPONENT bench)
+
+if(TARGET heft_python_module)  # where Debian's interpreter finds it
+  set(heft_python_destination lib/python3/dist-packages/heft)
+  install(TARGETS heft_python_module LIBRARY DESTINATION ${heft_python_destination} COMPONENT python)
+  install(FILES ${heft_python_files} DESTINATION ${heft_python_destination} COMPONENT python)
+endif()
 
 # The program generates its manual page and completion.
 foreach(file man/heft.1 bash/heft zsh/_heft fish/heft.fish)
@@ -59,7 +65,7 @@ install(FILES ${PROJECT_BINARY_DIR}/heft-config.cmake
         ${PROJECT_BINARY_DIR}/heft-config-version.cmake DESTINATION ${heft_cmake_folder}
         COMPONENT psychophysics)
 
-# Three Debian packages: heft, heft-bench, and libheft-dev to build C++ programs with.
+# Debian packages: heft, heft-bench, libheft-dev to build C++ programs with, and python3-heft.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "Heft's authors <heft@localhost>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -87,6 +93,15 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, libmd-dev")
 # Needed by heft::physics and by heft::inference only.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "libbullet-dev, libnlopt-dev")
 
+if(TARGET heft_python_module)
+  math(EXPR heft_next_python "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-heft)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "heft (= ${PROJECT_VERSION}), python3-pandas, \
+python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${heft_next_python})")
+endif()
+
 include(CPack)
 cpack_add_component(heft GROUP heft)
 cpack_add_component_group(heft DESCRIPTION "Psychophysics experiments on perceived mass
@@ -99,3 +114,8 @@ foreach(component psychophysics inference engine physics)
 endforeach()
 cpack_add_component_group(library DESCRIPTION "Heft's procedures, estimators, session engine and physics
 C++ libraries, for find_package(heft).")
+if(TARGET heft_python_module)
+  cpack_add_component(python GROUP python)
+  cpack_add_component_group(python DESCRIPTION "Heft's Python module
+Procedures, fits, logs as pandas data frames, and simulations.")
+endif()

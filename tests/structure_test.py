@@ -37,7 +37,7 @@ MAY_INCLUDE = {
     "population": ROWS_1_2 | ROW_3 | {"apparatus", "replay", "session", "analysis"},
 }
 # window is loaded at run time, and no other folder includes it.
-MAY_INCLUDE["results"] = MAY_INCLUDE["cli"] = set(MAY_INCLUDE) - {"window"}
+MAY_INCLUDE["results"] = MAY_INCLUDE["cli"] = MAY_INCLUDE["python"] = set(MAY_INCLUDE) - {"window"}
 
 # Third-party headers that stay inside one folder or two; what is only compared with is in results.
 LIBRARY_FOLDERS = {
@@ -53,6 +53,7 @@ LIBRARY_FOLDERS = {
     r"yaml-cpp": {"tracking"},
     r"nlopt": {"inference"},
     r"CLI/": {"cli"},
+    r"pybind11": {"python"},
 }
 
 ROOT_NAMES = {"CMakeLists.txt", "CMakePresets.json", "src", "protocols", "tests", "results",

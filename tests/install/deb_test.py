@@ -48,7 +48,7 @@ class Packages(unittest.TestCase):
         return output
 
     def test_1_dependencies(self):
-        self.assertEqual(set(self.debs), {"heft", "heft-bench", "libheft-dev"})
+        self.assertEqual(set(self.debs), {"heft", "heft-bench", "libheft-dev", "python3-heft"})
         needs = self.field("heft", "Depends")
         for library in ("libc6", "libbullet", "libsqlite3", "libsdl2", "libopencv-core", "dejavu"):
             self.assertIn(library, needs)
@@ -56,6 +56,10 @@ class Packages(unittest.TestCase):
             self.assertNotIn(none, needs)
         self.assertIn("libode", self.field("heft-bench", "Depends"))
         self.assertIn("heft (=", self.field("heft-bench", "Depends"))
+        for package in ("heft (=", "python3-pandas", "python3 (<<", "libsqlite3"):
+            self.assertIn(package, self.field("python3-heft", "Depends"))
+        for library in ("opencv", "bullet", "sdl"):
+            self.assertNotIn(library, self.field("python3-heft", "Depends"))
         for library in ("bullet", "nlopt"):
             self.assertNotIn(library, self.field("libheft-dev", "Depends"))
         library = must("dpkg-deb", "-c", self.debs["libheft-dev"])
@@ -75,7 +79,15 @@ class Packages(unittest.TestCase):
         self.assertIn('"simulated": true', self.works("analyse", "--db", "/tmp/lab.db", "--mix",
                                                       "--json"))
 
-    def test_3_the_studies_are_a_separate_package(self):
+    def test_3_the_python_module(self):
+        self.installed("python3-heft")
+        code = ("import heft; protocol = '/usr/share/heft/protocols/jnd.toml';"
+                "print(len(heft.read_log(heft.simulate(protocol, 1, 1, '/tmp/py.db'))['trial']));"
+                "print(heft.Procedure({'kind': 'up_down', 'start': 5, 'step': 1}).level)")
+        said = must("chroot", self.root, "python3", "-c", code)
+        self.assertRegex(said, r"^[1-9]\d+\n5.0\n$")
+
+    def test_4_the_studies_are_a_separate_package(self):
         code, said = self.heft("bench", "--help")
         self.assertEqual(code, 1)
         self.assertIn("heft-bench", said)

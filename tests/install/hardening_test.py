@@ -18,9 +18,9 @@ class Hardening(unittest.TestCase):
     build = None
 
     def each(self):
-        for name in NAMES:
-            with self.subTest(name):
-                yield self.build / name
+        for file in [*(self.build / name for name in NAMES), *self.build.glob("python/heft/*.so")]:
+            with self.subTest(file.name):
+                yield file
 
     def test_programs_are_position_independent(self):
         for file in self.each():
