@@ -14,6 +14,7 @@ import shlex
 import shutil
 import sqlite3
 import subprocess
+import sys
 from pathlib import Path
 
 from session_harness import PROTOCOLS, ROOT, SessionTest, commands_in, main
@@ -43,6 +44,7 @@ NOT_RUN = [
     (r"^cmake --install", "install_test.py installs"),
     (r"^ctest\b.*\bdeb\b", "needs root and a network"),
     (r"^ctest\b", "runs tests"),
+    (r"^PYTHONPATH=build/python ", "tests/python/examples_test.py runs it"),
     (r"^build-fuzz/", "is built by clang"),
     (r"^python3 (results|tests)/", "takes minutes, and writes into results/"),
 ]
@@ -190,8 +192,8 @@ class Commands(Parsed):
     def run_python(self, code):
         compile(code, "README", "exec")
         modules = re.findall(r"^(?:import|from) (\w+)", code, re.M)
-        if all(importlib.util.find_spec(module) for module in modules):
-            self.run_command(["python3", "-c", code])
+        if code and all(importlib.util.find_spec(module) for module in modules):
+            self.run_command([sys.executable, "-c", code])
 
     def run_r(self, code):
         packages = set(re.findall(r"\b(\w+)::", code)) | set(re.findall(r"library\((\w+)\)", code))
