@@ -144,5 +144,32 @@ RC_GTEST_PROP(InterleavingProperty, NoStaircaseGetsFurtherAheadThanTheLag, ()) {
   }
 }
 
+TEST(InterleavedRun, AVoidTrialLeavesTheStaircasesUnchanged) {
+  InterleavedRun run({1, {.interleave = Interleave::round_robin}, staircases_of({2, 2})});
+  run.void_trial();
+  EXPECT_EQ(run.trial(), 2);
+  EXPECT_EQ(run.level(), 10);
+  EXPECT_EQ(run.staircases().front().n_trials(), 0);
+  run.respond({true});
+  EXPECT_EQ(run.trial(), 3);
+  EXPECT_EQ(&run.staircase(), &run.staircases().back());
+}
+
+RC_GTEST_PROP(InterleavedRunProperty, ItsTrialsAreInTheOrderOfTheDraws, ()) {
+  const InterleaveConfig config{
+      *rc::gen::element(Interleave::random, Interleave::round_robin, Interleave::sequential),
+      *rc::gen::inRange(0, 5)};
+  const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+  const auto staircases = staircases_of({5, 9, 2});
+  InterleavedRun run({seed, config, staircases});
+  std::vector<std::size_t> order;
+  while (!run.finished()) {
+    order.push_back(static_cast<std::size_t>(&run.staircase() - run.staircases().data()));
+    RC_ASSERT(run.trial() == static_cast<int>(order.size()));
+    run.respond({true});
+  }
+  RC_ASSERT(order == order_of(staircases, config, seed));
+}
+
 }  // namespace
 }  // namespace heft
