@@ -96,6 +96,7 @@ StudyEstimate mean_over_people(const std::vector<const StudyEstimate*>& people, 
   }
   estimate.participant.clear();
   estimate.value = mean(values);
+  estimate.low = estimate.high = std::nullopt;  // those of the first
   estimate.set(student_t_interval(values));
   if (!of_logs) estimate.sd = sample_sd(values);
   for (auto* figure : {&estimate.value, &estimate.low, &estimate.high})
@@ -105,6 +106,14 @@ StudyEstimate mean_over_people(const std::vector<const StudyEstimate*>& people, 
   if (values.size() < people.size())
     estimate.why = fmt::format("{} of {} participants have none: {}", people.size() - values.size(),
                                people.size(), why);
+  return estimate;
+}
+
+StudyEstimate over_people(const std::vector<const StudyEstimate*>& people) {
+  if (people.size() > 1) return mean_over_people(people, false);
+  StudyEstimate estimate = *people.front();
+  estimate.participant.clear();
+  estimate.n = estimate.value ? 1 : 0;
   return estimate;
 }
 

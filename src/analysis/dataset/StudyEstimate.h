@@ -104,4 +104,7 @@ StudyEstimate own_share(const Measure& measure, const std::string& participant, 
 /// @param of_logs geometric: of logarithms; without SD
 StudyEstimate mean_over_people(const std::vector<const StudyEstimate*>& people, bool of_logs);
 
+/// The mean over people; of one alone that participant's estimate with its own interval.
+StudyEstimate over_people(const std::vector<const StudyEstimate*>& people);
+
 }  // namespace heft

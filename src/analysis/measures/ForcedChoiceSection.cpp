@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "analysis/measures/Section.h"
+#include "analysis/measures/ShareByLevel.h"
 #include "analysis/report/Notes.h"
 
 namespace heft {
@@ -24,6 +25,14 @@ constexpr Measure pse{
 constexpr Measure chosen{"forced_chosen", "%", "the comparison",
                          "share of forced choices at a difference in which the comparison was "
                          "chosen, over participants"};
+const ShareByLevel shares{
+    .share = chosen,
+    .name = "forced_choice",
+    .title = "Forced choices of the comparison by difference",
+    .caption =
+        "Percentage of trials in which the comparison was chosen, by its mass minus the "
+        "reference's; 95 % intervals over participants.",
+    .hits = "chosen"};
 
 constexpr double lapse_rate = 0.02;  // Wichmann & Hill 2001: a single lapse must not bend the curve
 
@@ -47,32 +56,6 @@ Discrimination fitted(const AnswersByLevel& answers) {
       fit_psychometric(answers, {.guess = both_signs ? lapse_rate : 0.5, .lapse = lapse_rate});
   if (!both_signs) return {fit.parameter("threshold"), {}, fit.why};
   return {scaled(fit.parameter("slope"), z_75), fit.parameter("threshold"), fit.why};
-}
-
-StudyEstimate over_people(const std::vector<const StudyEstimate*>& people) {
-  StudyEstimate estimate = *people.front();
-  estimate.participant.clear();
-  std::vector<double> values;
-  std::string why;
-  estimate.n_trials = 0;
-  for (const StudyEstimate* own : people) {
-    estimate.n_trials += own->n_trials;
-    if (own->value) values.push_back(*own->value);
-    if (!own->why.empty()) why = own->why;
-  }
-  estimate.n = static_cast<int>(values.size());
-  if (people.size() == 1) return estimate;
-  estimate.value = mean(values);
-  estimate.sd = sample_sd(values);
-  estimate.low.reset();
-  estimate.high.reset();
-  estimate.set(student_t_interval(values));
-  estimate.method = "Student's t";
-  estimate.why.clear();
-  if (values.size() < people.size())
-    estimate.why = fmt::format("{} of {} participants have none: {}", people.size() - values.size(),
-                               people.size(), why);
-  return estimate;
 }
 
 class ForcedChoiceSection final : public Section {
@@ -120,7 +103,7 @@ class ForcedChoiceSection final : public Section {
     for (const StudyEstimate& one : own)
       groups[{*one.reference_g, one.condition, one.measure->name}].push_back(&one);
     for (const auto& [key, people] : groups) summary.estimates.push_back(over_people(people));
-    for (const auto& [compared, people] : people_) put_shares(summary.estimates, compared, people);
+    for (const auto& [compared, people] : people_) shares.put(summary.estimates, compared, people);
   }
 
   std::vector<std::string> findings(const Summary& summary) const override {
@@ -136,25 +119,13 @@ class ForcedChoiceSection final : public Section {
          column(threshold, Field::n_trials, "n_trials", "trials"),
          column(threshold, Field::value, "threshold_75_g", "threshold g")},
         "cumulative normal fitted to each participant, with 2 % lapses; mean over participants "
-        "with "
-        "Student's t interval, of one alone the fit's",
+        "with Student's t interval, of one alone the fit's",
         TablePlace::results,
         "forced_choice[]"};
     add_interval(thresholds.columns, threshold, "low_g", "high_g", 1);
     thresholds.columns.push_back(column(pse, Field::value, "pse_g", "PSE g"));
     add_interval(thresholds.columns, pse, "pse_low_g", "pse_high_g", 1);
     thresholds.columns.push_back(column(threshold, Field::why, "why", "no threshold: why"));
-    EstimateTable by_level{
-        "forced_choice_by_level",
-        "Forced choices of the comparison by difference",
-        {key_column("reference_g", "reference g"), key_column("condition", "condition"),
-         key_column("level_g", "difference g"),
-         column(chosen, Field::n_trials, "n_trials", "trials"),
-         column(chosen, Field::n_hits, "n_chosen", "chosen"),
-         column(chosen, Field::value, "chosen_percent", "%")},
-        "",
-        TablePlace::csv};
-    add_interval(by_level.columns, chosen, "low_percent", "high_percent", 1);
     EstimateTable people{
         "forced_choice_by_participant",
         "Each participant's 75 % threshold in forced choices",
@@ -169,50 +140,17 @@ class ForcedChoiceSection final : public Section {
         "",
         TablePlace::csv};
     people.participants = true;
-    return {thresholds, by_level, people};
+    return {thresholds, shares.table(), people};
   }
 
-  std::vector<ChartSpec> charts() const override {
-    return {{.name = "forced_choice",
-             .title = "Forced choices of the comparison by difference",
-             .caption =
-                 "Percentage of trials in which the comparison was chosen, by its mass minus "
-                 "the reference's; 95 % intervals over participants.",
-             .csv = "forced_choice_by_level.csv",
-             .importance = 38,
-             .series = {{&chosen}},
-             .x = "level_g",
-             .panels = {"reference_g", "condition"},
-             .x_label = "difference (g)",
-             .y_label = "% of trials",
-             .axes = "set yrange [0:100]\n"}};
-  }
+  std::vector<ChartSpec> charts() const override { return {shares.chart()}; }
 
  private:
-  using People = std::map<std::string, AnswersByLevel>;
-
   static StudyEstimate at(const Measure& measure, const Compared& compared) {
     return {&measure, "comparison", compared.condition, compared.reference_g};
   }
 
-  static void put_shares(Estimates& all, const Compared& compared, const People& people) {
-    std::map<double, Tallies> by_level;
-    for (const auto& [participant, answers] : people)
-      for (const auto& [level_g, n] : answers) {
-        Tally& tally = by_level[level_g][participant];
-        tally.n_hits = static_cast<int>(n[1]);
-        tally.n_trials = static_cast<int>(n[0] + n[1]);
-      }
-    for (const auto& [level_g, tallies] : by_level) {
-      StudyEstimate& share = all.emplace_back(rate_estimate(chosen, rate_of(tallies)));
-      share.task = "comparison";
-      share.condition = compared.condition;
-      share.reference_g = compared.reference_g;
-      share.by = {heft::at("level_g", level_g)};
-    }
-  }
-
-  std::map<Compared, People> people_;
+  std::map<Compared, AnswersByPerson> people_;
 };
 }  // namespace
 

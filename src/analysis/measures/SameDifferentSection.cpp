@@ -6,6 +6,7 @@
 #include <map>
 
 #include "analysis/measures/Section.h"
+#include "analysis/measures/ShareByLevel.h"
 #include "analysis/report/Notes.h"
 #include "inference/Fit.h"
 
@@ -15,8 +16,7 @@ namespace {
 constexpr Measure threshold{
     "same_different_threshold_75", "g", "75 % threshold",
     "difference in mass that would make 75 % of forced choices correct: 0.6745 by the sensitivity "
-    "of "
-    "the differencing model, fitted to each participant's same-different answers by maximum "
+    "of the differencing model, fitted to each participant's same-different answers by maximum "
     "likelihood with 2 % lapses; the criterion has no influence on it; mean over participants, "
     "Student's t interval; of one alone the fit's interval"};
 constexpr Measure criterion{
@@ -26,6 +26,15 @@ constexpr Measure criterion{
 constexpr Measure different{"same_different_different", "%", "\"different\"",
                             "share of same-different trials at a difference that were answered by "
                             "\"different\", over participants; at 0 g: false alarms"};
+const ShareByLevel shares{
+    .share = different,
+    .name = "same_different",
+    .title = "Answers \"different\" by difference",
+    .caption =
+        "Percentage of trials that were answered by \"different\", by the difference in "
+        "mass; 95 % intervals over participants.",
+    .hits = "different",
+    .note = "differences of either sign together; at 0 g: false alarms"};
 
 constexpr double lapse_rate = 0.02;  // as in forced choices
 
@@ -55,13 +64,9 @@ class SameDifferentSection final : public Section {
       Estimates own;
       for (const auto& [participant, answers] : people)
         put_own(own, compared, participant, answers);
-      for (const Measure* measure : {&threshold, &criterion}) {
-        const auto each = estimates_of(own, measure->name);
-        summary.estimates.push_back(each.size() == 1 ? *each.front()
-                                                     : mean_over_people(each, false));
-        summary.estimates.back().participant.clear();
-      }
-      put_shares(summary.estimates, compared, people);
+      for (const Measure* measure : {&threshold, &criterion})
+        summary.estimates.push_back(over_people(estimates_of(own, measure->name)));
+      shares.put(summary.estimates, compared, people);
     }
   }
 
@@ -78,25 +83,13 @@ class SameDifferentSection final : public Section {
          column(threshold, Field::n_trials, "n_trials", "trials"),
          column(threshold, Field::value, "threshold_75_g", "threshold g")},
         "differencing model fitted to each participant, with 2 % lapses; mean over participants "
-        "with "
-        "Student's t interval, of one alone the fit's",
+        "with Student's t interval, of one alone the fit's",
         TablePlace::results,
         "same_different[]"};
     add_interval(thresholds.columns, threshold, "low_g", "high_g", 1);
     thresholds.columns.push_back(column(criterion, Field::value, "criterion", "criterion SD", 2));
     add_interval(thresholds.columns, criterion, "criterion_low", "criterion_high", 2);
     thresholds.columns.push_back(column(threshold, Field::why, "why", "no threshold: why"));
-    EstimateTable by_level{
-        "same_different_by_level",
-        "Answers \"different\" by difference",
-        {key_column("reference_g", "reference g"), key_column("condition", "condition"),
-         key_column("level_g", "difference g"),
-         column(different, Field::n_trials, "n_trials", "trials"),
-         column(different, Field::n_hits, "n_different", "different"),
-         column(different, Field::value, "different_percent", "%")},
-        "differences of either sign together; at 0 g: false alarms",
-        TablePlace::csv};
-    add_interval(by_level.columns, different, "low_percent", "high_percent", 1);
     EstimateTable people{
         "same_different_by_participant",
         "Each participant's 75 % threshold in same-different comparisons",
@@ -111,27 +104,12 @@ class SameDifferentSection final : public Section {
         "",
         TablePlace::csv};
     people.participants = true;
-    return {thresholds, by_level, people};
+    return {thresholds, shares.table(), people};
   }
 
-  std::vector<ChartSpec> charts() const override {
-    return {{.name = "same_different",
-             .title = "Answers \"different\" by difference",
-             .caption = "Percentage of trials that were answered by \"different\", by the "
-                        "difference in mass; 95 % intervals over participants.",
-             .csv = "same_different_by_level.csv",
-             .importance = 38,
-             .series = {{&different}},
-             .x = "level_g",
-             .panels = {"reference_g", "condition"},
-             .x_label = "difference (g)",
-             .y_label = "% of trials",
-             .axes = "set yrange [0:100]\n"}};
-  }
+  std::vector<ChartSpec> charts() const override { return {shares.chart()}; }
 
  private:
-  using People = std::map<std::string, AnswersByLevel>;
-
   static void put_own(Estimates& all, const Compared& compared, const std::string& participant,
                       const AnswersByLevel& answers) {
     const Fit fit = fit_same_different(answers, lapse_rate);
@@ -152,21 +130,7 @@ class SameDifferentSection final : public Section {
     }
   }
 
-  static void put_shares(Estimates& all, const Compared& compared, const People& people) {
-    std::map<double, Tallies> by_level;
-    for (const auto& [participant, answers] : people)
-      for (const auto& [level_g, n] : answers)
-        by_level[level_g][participant] = {static_cast<int>(n[1]), static_cast<int>(n[0] + n[1])};
-    for (const auto& [level_g, tallies] : by_level) {
-      StudyEstimate& share = all.emplace_back(rate_estimate(different, rate_of(tallies)));
-      share.task = "comparison";
-      share.condition = compared.condition;
-      share.reference_g = compared.reference_g;
-      share.by = {at("level_g", level_g)};
-    }
-  }
-
-  std::map<Compared, People> people_;
+  std::map<Compared, AnswersByPerson> people_;
 };
 }  // namespace
 

@@ -66,6 +66,16 @@ TEST(SameDifferent, IsMeanOverParticipantsWhoHaveAThreshold) {
   EXPECT_THAT(readable(summary), testing::HasSubstr("participants that can be estimated"));
 }
 
+TEST(SameDifferent, OneThresholdAmongPeopleHasNoInterval) {
+  const Summary summary =
+      summarized({judge(1, "a", sensitive), judge(2, "coin", {{0, {20, 20}}, {160, {20, 20}}})});
+  const StudyEstimate threshold =
+      figure(summary, "same_different_threshold_75", {{"participant", ""}});
+  EXPECT_NEAR(*threshold.value, 51.30688, 1e-4);
+  EXPECT_EQ(threshold.n, 1);
+  EXPECT_FALSE(threshold.low || threshold.high);
+}
+
 TEST(SameDifferent, StaysOutOfThreeWayComparisons) {
   const SessionData data = judge(1, "a", sensitive);
   EXPECT_FALSE(data.attempts.front().is_usable_comparison());
