@@ -3,23 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
 #include <set>
 
+#include "base/files/TextFile.h"
+
 namespace heft {
 
 namespace {
-std::optional<double> number_in(const std::string& text) {
-  double number = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || stop != end || !std::isfinite(number)) return std::nullopt;
-  return number;
-}
-
 // How many ways there are to take so many of n, if equal ones count as different.
 double n_ways(std::size_t n, std::size_t taken) {
   double ways = 1;
@@ -180,13 +173,13 @@ bool Judgment::asks_for_number(const FormQuestion& question) {
 AnswerScale Judgment::scale(const FormQuestion& question) {
   AnswerScale scale = scale_of(question);
   if (question.kind != QuestionKind::choice) return scale;
+  const bool are_numbers = asks_for_number(question);
   for (const AnswerChoice& choice : question.choices)
-    scale.points.push_back(asks_for_number(question)
-                               ? *number_in(choice.value)
-                               : static_cast<double>(scale.points.size() + 1));
+    scale.points.push_back(are_numbers ? *number_in(choice.value)
+                                       : static_cast<double>(scale.points.size() + 1));
   if (scale.points.empty()) return scale;
-  std::tie(scale.low, scale.high) =
-      std::pair(std::ranges::min(scale.points), std::ranges::max(scale.points));
+  scale.low = std::ranges::min(scale.points);
+  scale.high = std::ranges::max(scale.points);
   return scale;
 }
 

@@ -18,26 +18,28 @@ using ::testing::SizeIs;
 using ::testing::UnorderedElementsAre;
 using Masses = std::vector<double>;
 
-FormQuestion likert(int from, int to) {
+FormQuestion asked(QuestionKind kind) {
   FormQuestion question;
   question.key = "asked";
-  question.kind = QuestionKind::likert;
+  question.kind = kind;
+  return question;
+}
+
+FormQuestion likert(int from, int to) {
+  FormQuestion question = asked(QuestionKind::likert);
   question.from = from;
   question.to = to;
   return question;
 }
 
 FormQuestion choice(const std::vector<std::string>& values) {
-  FormQuestion question;
-  question.key = "asked";
+  FormQuestion question = asked(QuestionKind::choice);
   for (const std::string& value : values) question.choices.push_back({value, "words"});
   return question;
 }
 
 FormQuestion number(double least, double most) {
-  FormQuestion question;
-  question.key = "asked";
-  question.kind = QuestionKind::number;
+  FormQuestion question = asked(QuestionKind::number);
   question.least = least;
   question.most = most;
   return question;

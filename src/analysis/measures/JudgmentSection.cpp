@@ -18,8 +18,7 @@ constexpr Measure mean_answer{
     "judgment_mean", "", "mean answer",
     "answer to the question of a judgment: mean over participants of each one's mean, Student's t "
     "interval; where the question takes only numbers above 0, geometric means, with the interval "
-    "on "
-    "logarithms"};
+    "on logarithms"};
 constexpr Measure share{"judgment_share", "%", "share of answers",
                         "share of judgments with this answer, of a question with choices; interval "
                         "over participants, of whom one with more trials counts more"};
@@ -103,12 +102,7 @@ class JudgmentSection final : public Section {
           }
           continue;
         }
-        StudyEstimate own{&mean_answer};
-        own.participant = participant;
-        own.value = own_mean(answers, values);
-        own.n = 1;
-        own.n_trials = static_cast<int>(values.size());
-        put_at(all, shown, answers, std::move(own));
+        put_at(all, shown, answers, own_mean(answers, participant, values));
       }
     return all;
   }
@@ -199,11 +193,17 @@ class JudgmentSection final : public Section {
   }
 
  private:
-  static std::optional<double> own_mean(const Answers& answers, std::vector<double> values) {
-    if (!answers.has_logarithms()) return mean(values);
-    for (double& value : values) value = std::log(value);
-    const auto mean_log = mean(values);
-    return mean_log ? std::optional(std::exp(*mean_log)) : std::nullopt;
+  static StudyEstimate own_mean(const Answers& answers, const std::string& participant,
+                                std::vector<double> values) {
+    StudyEstimate own{&mean_answer};
+    own.participant = participant;
+    own.n = 1;
+    own.n_trials = static_cast<int>(values.size());
+    if (answers.has_logarithms())
+      for (double& value : values) value = std::log(value);
+    own.value = mean(values);
+    if (answers.has_logarithms()) own.value = std::exp(*own.value);
+    return own;
   }
 
   static void put_at(Estimates& all, const Shown& shown, const Answers& answers,
@@ -230,12 +230,8 @@ class JudgmentSection final : public Section {
   static void put_mean(Estimates& all, const Shown& shown, const Answers& answers) {
     Estimates people;
     std::vector<const StudyEstimate*> each;
-    for (const auto& [participant, values] : answers.people) {
-      StudyEstimate& own = people.emplace_back(StudyEstimate{&mean_answer});
-      own.value = own_mean(answers, values);
-      own.n_trials = static_cast<int>(values.size());
-      each.push_back(&own);
-    }
+    for (const auto& [participant, values] : answers.people)
+      each.push_back(&people.emplace_back(own_mean(answers, participant, values)));
     StudyEstimate over_people = mean_over_people(each, answers.has_logarithms());
     over_people.method =
         answers.has_logarithms() ? "geometric, Student's t" : "arithmetic, Student's t";
