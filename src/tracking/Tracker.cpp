@@ -140,7 +140,7 @@ std::optional<BodyFit> Tracker::learn_tag_size(std::optional<BodyFit> board) {
   tag_size_.try_picture();
   const auto seen = board_.cells(gray_, *board);
   if (!seen || !tag_size_.learn(*seen)) return board;
-  board_.resize(with_larger_tags(board_of_file_, tag_size_.excess()));
+  board_.resize(with_scaled_tags(board_of_file_, 1 + tag_size_.excess()));
   tone_ = ToneLearner(response_of(calibrated_).bend());
   expect_picture();
   const auto again = board_.find_again(gray_, board->camera_from_body,

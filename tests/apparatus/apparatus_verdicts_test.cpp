@@ -106,7 +106,7 @@ TEST(PictureVerdicts, NameBlurNoiseAndSecondPrints) {
   doubled.board.tags[0].id = doubled.board.tags[7].id;
   EXPECT_EQ(verdict_on("doubles", verdicts_of({}, doubled, apparatus)), CheckVerdict::warning);
   Apparatus enlarged = apparatus;
-  enlarged.board = with_larger_tags(apparatus.board, 0.01);
+  enlarged.board = with_scaled_tags(apparatus.board, 1.01);
   EXPECT_EQ(verdict_on("tag size", verdicts_of({}, enlarged, apparatus)), CheckVerdict::warning);
 }
 

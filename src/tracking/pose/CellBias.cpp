@@ -58,13 +58,4 @@ std::optional<CellBias> cell_bias(const Image& gray, const Intrinsics& camera,
   return result;
 }
 
-MarkerBody with_larger_tags(MarkerBody board, double excess) {
-  for (Tag& tag : board.tags) {
-    const Eigen::Vector3d middle_m = tag_center_m(tag);
-    for (Eigen::Vector3d& corner_m : tag.corners_m)
-      corner_m = middle_m + (1 + excess) * (corner_m - middle_m);
-  }
-  return board;
-}
-
 }  // namespace heft

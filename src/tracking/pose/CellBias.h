@@ -35,9 +35,6 @@ std::optional<CellBias> cell_bias(const Image& gray, const Intrinsics& camera,
                                   std::span<const TagObservation> tags, const BodyFit& board,
                                   const ToneCurve& curve, double noise, std::size_t most = 1000);
 
-/// The board with tags that are larger by this fraction, at the same places.
-MarkerBody with_larger_tags(MarkerBody board, double excess);
-
 /// Learns from the first pictures whether the board's tags fit the distances between them. If they
 /// do not, they would be taken for a tone curve's, which is wrong for the effector.
 class TagSizeLearner {

@@ -113,6 +113,15 @@ Eigen::Vector3d tag_center_m(const Tag& tag) {
   return (c[0] + c[1] + c[2] + c[3]) / 4;
 }
 
+MarkerBody with_scaled_tags(MarkerBody body, double scale) {
+  for (Tag& tag : body.tags) {
+    const Eigen::Vector3d center_m = tag_center_m(tag);
+    for (Eigen::Vector3d& corner_m : tag.corners_m)
+      corner_m = center_m + scale * (corner_m - center_m);
+  }
+  return body;
+}
+
 Pose body_from_tag(const Tag& tag) {
   const auto& c = tag.corners_m;
   const Eigen::Vector3d out = tag_normal(tag);

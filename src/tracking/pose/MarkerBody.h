@@ -112,6 +112,8 @@ Tag tag_on(const FaceFrame& face, int id, const Eigen::Vector2d& center_m, doubl
 /// Unit vector out of the tag's front.
 Eigen::Vector3d tag_normal(const Tag& tag);
 Eigen::Vector3d tag_center_m(const Tag& tag);
+/// The body with tags of another size, at the same places.
+MarkerBody with_scaled_tags(MarkerBody body, double scale);
 /// The tag's frame: origin in its middle, x right, y up, z out. Its corners need not form an exact
 /// square.
 Pose body_from_tag(const Tag& tag);

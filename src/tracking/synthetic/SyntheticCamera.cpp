@@ -33,17 +33,10 @@ double largest_move_px(const std::vector<PrintedFace>& faces, const SeenBody& fr
   return largest;
 }
 
-void scale_tags(MarkerBody& body, double scale) {
-  for (Tag& tag : body.tags) {
-    const Vector3d center_m = tag_center_m(tag);
-    for (Vector3d& corner_m : tag.corners_m) corner_m = center_m + scale * (corner_m - center_m);
-  }
-}
-
 // The true board, effector and lens.
 Apparatus as_it_is(Apparatus apparatus, const FileErrors& files) {
-  scale_tags(apparatus.board, files.board_tag_scale);
-  scale_tags(apparatus.effector, files.effector_tag_scale);
+  apparatus.board = with_scaled_tags(apparatus.board, files.board_tag_scale);
+  apparatus.effector = with_scaled_tags(apparatus.effector, files.effector_tag_scale);
   apparatus.camera.fx_px *= files.focal_length_scale;
   apparatus.camera.fy_px *= files.focal_length_scale;
   return apparatus;
