@@ -155,7 +155,8 @@ void calibrate_the_camera(const CalibrateOptions& options) {
   say("{}; computing...\n", views.tally());
   CameraCalibration result = calibrate_camera(board, views.pictures(), views.names());
   result.camera.calibrated_at = camera->mode().held;
-  const MarkerBody printed = with_larger_tags(board, result.tags.is_off() ? result.tags.excess : 0);
+  const MarkerBody printed =
+      with_scaled_tags(board, result.tags.is_off() ? 1 + result.tags.excess : 1);
   result.camera.response = learned_response(result.camera, printed, views.pictures());
   say_views(result);
   // Ink looks like a tone curve, which summary() names.
@@ -218,6 +219,20 @@ void calibrate_the_shutter(const CalibrateOptions& options) {
   say("{} is written. Next: heft doctor\n", options.out);
 }
 
+template <typename Calibration>
+void write_effector(const CalibrateOptions& options, const char* made_by,
+                    const Calibration& result) {
+  const std::string text = summary(result);
+  replace_file(options.out,
+               effector_to_toml(result.effector, fmt::format("Made by {} from {}.\n{}", made_by,
+                                                             options.effector, text)));
+  print("{}", text);
+  if (!doubts(result).empty())
+    say(doubtful, options.out);
+  else
+    say("{} is written: use it as the effector file. Next: heft doctor\n", options.out);
+}
+
 // From every picture of a file; from a live camera until there are enough, or Ctrl-C.
 StandingViews standing_views(Camera& camera, const MarkerBody& board, const MarkerBody& effector,
                              const Intrinsics& intrinsics) {
@@ -225,8 +240,7 @@ StandingViews standing_views(Camera& camera, const MarkerBody& board, const Mark
   say_locks(camera);
   if (camera.is_live())
     say("Stand the effector on the board, let go of it, and do so in several places, near and "
-        "far.\n"
-        "Ctrl-C ends with the pictures so far.\n");
+        "far.\nCtrl-C ends with the pictures so far.\n");
   StandingViews views(board, effector, intrinsics, camera.is_live());
   ProgressBar bar("on the board");
   while (const auto picture = next_picture(camera, stop)) {
@@ -254,15 +268,7 @@ void calibrate_the_effector_on_board(const CalibrateOptions& options) {
                     views.tally()));
   say("{}\n", views.tally());
   const OnBoardCalibration result = calibrate_on_board(board, effector, intrinsics, views.views());
-  const std::string text = summary(result);
-  replace_file(options.out, effector_to_toml(result.effector,
-                                             "Made by heft calibrate effector --on-board from " +
-                                                 options.effector + ".\n" + text));
-  print("{}", text);
-  if (!doubts(result).empty())
-    say(doubtful, options.out);
-  else
-    say("{} is written: use it as the effector file. Next: heft doctor\n", options.out);
+  write_effector(options, "heft calibrate effector --on-board", result);
 }
 
 void calibrate_the_effector(const CalibrateOptions& options) {
@@ -286,15 +292,7 @@ void calibrate_the_effector(const CalibrateOptions& options) {
     }
   }
   const EffectorCalibration result = calibrate_effector(nominal, intrinsics, views.views());
-  const std::string text = summary(result);
-  replace_file(options.out,
-               effector_to_toml(result.effector, "Made by heft calibrate effector from " +
-                                                     options.effector + ".\n" + text));
-  print("{}", text);
-  if (!doubts(result).empty())
-    say(doubtful, options.out);
-  else
-    say("{} is written: use it as the effector file. Next: heft doctor\n", options.out);
+  write_effector(options, "heft calibrate effector", result);
 }
 
 void add_source(Command& command, CalibrateOptions& options) {

@@ -103,8 +103,7 @@ void doubt_tags(const TagPrint& tags, std::vector<std::string>& list) {
   if (!tags.is_off()) return;
   list.push_back(fmt::format(
       "the board's tags are printed {:.2f} % ({:.2f} either way) {} than its file says, relative "
-      "to "
-      "their distances: multiply tag_m of its [grid] by {:.4f}, or enlarge the corners of each "
+      "to their distances: multiply tag_m of its [grid] by {:.4f}, or enlarge the corners of each "
       "[[tag]] about its center; the camera was calibrated with this size",
       100 * std::abs(tags.excess), 200 * tags.excess_sd, tags.excess > 0 ? "larger" : "smaller",
       1 + tags.excess));
@@ -114,8 +113,7 @@ std::string ink_in_words(const TagPrint& tags) {
   if (!tags.has_spread()) return "";
   return fmt::format(
       "ink: spreads by {:.2f} mm ({:.2f} either way) beyond the edges of black squares; this is "
-      "the "
-      "print, not the camera, and tracking corrects it as it does a tone curve\n",
+      "the print, not the camera, and tracking corrects it as it does a tone curve\n",
       1e3 * tags.ink_m, 2e3 * tags.ink_sd_m);
 }
 }  // namespace
@@ -152,6 +150,12 @@ std::vector<std::string> doubts(const CameraCalibration& calibration) {
   return list;
 }
 
+std::string verdict_of(const std::vector<std::string>& doubts) {
+  std::string text = doubts.empty() ? "verdict: good\n" : "verdict: doubtful\n";
+  for (const std::string& line : doubts) text += fmt::format("  {}\n", line);
+  return text;
+}
+
 std::string summary(const CameraCalibration& calibration) {
   std::string text = fmt::format(
       "{} views used of {}, reprojection {:.3f} px rms, standard errors: focal length {:.2f} px, "
@@ -163,9 +167,7 @@ std::string summary(const CameraCalibration& calibration) {
       fmt::format("size of the tags relative to their distances: {:+.2f} % ({:.2f} either way)\n",
                   100 * calibration.tags.excess, 200 * calibration.tags.excess_sd);
   text += ink_in_words(calibration.tags);
-  const auto list = doubts(calibration);
-  text += list.empty() ? "verdict: good\n" : "verdict: doubtful\n";
-  for (const std::string& line : list) text += fmt::format("  {}\n", line);
+  text += verdict_of(doubts(calibration));
   // A scaled scene at a scaled distance gives the same picture.
   return text +
          "pictures cannot show whether the board's print is too large or too small as a whole: "

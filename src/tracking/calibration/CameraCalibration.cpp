@@ -242,7 +242,7 @@ CameraCalibration calibrate_camera(const MarkerBody& board, const std::vector<Im
   // As above: each round leaves a small part of the excess.
   MarkerBody printed = board;
   for (int round = 0; round < excess_rounds && result.tags.is_off(); ++round) {
-    printed = with_larger_tags(board, result.tags.excess);
+    printed = with_scaled_tags(board, 1 + result.tags.excess);
     best = solved(printed, pictures, names, best.camera);
     const double before = result.tags.excess;
     result.tags = print_of_tags(printed, best.camera, pictures);

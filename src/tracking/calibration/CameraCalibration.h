@@ -98,6 +98,9 @@ std::vector<std::string> doubts(const CameraCalibration& calibration);
 /// Description of the result, for the top of its file.
 std::string summary(const CameraCalibration& calibration);
 
+/// The last lines of a calibration's summary: "verdict: good", or "verdict: doubtful" and why.
+std::string verdict_of(const std::vector<std::string>& doubts);
+
 /// The smallest number of views for a calibration.
 inline constexpr std::size_t least_views = 5;
 

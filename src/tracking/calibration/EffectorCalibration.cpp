@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/Error.h"
+#include "tracking/calibration/CameraCalibration.h"
 #include "tracking/pose/MarkerBody.h"
 #include "tracking/pose/PlanarPose.h"
 
@@ -168,10 +169,7 @@ std::string summary(const EffectorCalibration& calibration) {
   for (const CalibratedTag& tag : calibration.tags)
     text += fmt::format("tag {}: in {} of them, {:.2f} mm from its place in the file\n", tag.id,
                         tag.n_views, tag.moved_m * 1e3);
-  const auto list = doubts(calibration);
-  text += list.empty() ? "verdict: good\n" : "verdict: doubtful\n";
-  for (const std::string& line : list) text += fmt::format("  {}\n", line);
-  return text;
+  return text + verdict_of(doubts(calibration));
 }
 
 }  // namespace heft

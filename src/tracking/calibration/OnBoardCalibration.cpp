@@ -10,6 +10,7 @@
 #include "base/Pose.h"
 #include "base/math/LevenbergMarquardt.h"
 #include "base/math/Quantiles.h"
+#include "tracking/calibration/CameraCalibration.h"
 
 namespace heft {
 
@@ -96,10 +97,9 @@ Corner on_effector(const Unknowns& at, std::size_t view, double face_m, const Ta
   return corner;
 }
 
-// @return squared distance of the corner, pixels
-double add(Equations& equations, const Corner& corner, const Intrinsics& camera,
-           const Eigen::Vector2d& seen_px, const Eigen::Vector2d& outward, const Unknowns& at,
-           bool is_effector, std::size_t view) {
+void add(Equations& equations, const Corner& corner, const Intrinsics& camera,
+         const Eigen::Vector2d& seen_px, const Eigen::Vector2d& outward, const Unknowns& at,
+         bool is_effector, std::size_t view) {
   const auto [pixel, by_point] = project_with_derivative(camera, corner.point_m);
   const double bias_px = at.bias_px + (is_effector ? at.other_bias_px : 0);
   const Eigen::Vector2d off_px = pixel + bias_px * outward - seen_px;
@@ -124,7 +124,6 @@ double add(Equations& equations, const Corner& corner, const Intrinsics& camera,
   equations.cost += robust.cost;
   equations.sum_squares += off_px.squaredNorm();
   ++equations.n;
-  return off_px.squaredNorm();
 }
 
 class Problem {
@@ -292,15 +291,11 @@ std::string summary(const OnBoardCalibration& c) {
   std::string text = fmt::format(
       "the effector stands on the board in {} picture(s), {} left out, reprojection {:.3f} px rms\n"
       "the effector's tags are {:.2f} % {} than in its file ({:.2f} either way), if the board is "
-      "as "
-      "large as its file says\n",
+      "as large as its file says\n",
       c.n_views, c.n_left_out, c.rms_px, percent(c.tag_scale),
       c.tag_scale < 1 ? "smaller" : "larger", 200 * c.tag_scale_sd);
   text += fmt::format("written: ruler_measured_m = {:.6f}\n", *c.effector.measured_ruler_m);
-  const auto list = doubts(c);
-  text += list.empty() ? "verdict: good\n" : "verdict: doubtful\n";
-  for (const std::string& line : list) text += fmt::format("  {}\n", line);
-  return text;
+  return text + verdict_of(doubts(c));
 }
 
 }  // namespace heft
