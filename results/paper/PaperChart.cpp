@@ -13,6 +13,10 @@ constexpr double panel_step = 20.5, gap = 0.6, label_gap = 0.7;
 constexpr std::string_view fitted_hit = "#b9cfe4", predicted_hit = "#1f5fa8", miss = "#ffffff",
                            no_fit_hit = "#8a94a0";
 
+PaperExperiment other_than(PaperExperiment one) {
+  return one == PaperExperiment::jnd ? PaperExperiment::sorting : PaperExperiment::jnd;
+}
+
 std::string tile(double x, double row, std::string_view color) {
   return fmt::format(
       "set object rectangle from {},{} to {},{} fillcolor '{}' fillstyle solid border "
@@ -77,9 +81,7 @@ class Tiles {
       const std::string_view hit = !is_fitted ? no_fit_hit : predicted ? predicted_hit : fitted_hit;
       script_ += tile(x_of(f), row, result.figures[f].hit ? hit : miss);
     }
-    const PaperExperiment other =
-        result.fitted_to == PaperExperiment::jnd ? PaperExperiment::sorting : PaperExperiment::jnd;
-    const RivalResult::Total total = result.total(figures_, other);
+    const RivalResult::Total total = result.total(figures_, other_than(result.fitted_to));
     script_ +=
         label(fmt::format("{} of {}", total.n_hits, total.n),
               left_ + static_cast<double>(figures_.size()) + gap + 0.3, row + 0.42,
@@ -98,11 +100,7 @@ int most_hits(const std::vector<RivalResult>& results, const std::vector<PaperFi
   std::map<std::string, int> hits;
   for (const RivalResult& result : results)
     if (result.rival.group == group)
-      hits[result.rival.name] +=
-          result
-              .total(figures, result.fitted_to == PaperExperiment::jnd ? PaperExperiment::sorting
-                                                                       : PaperExperiment::jnd)
-              .n_hits;
+      hits[result.rival.name] += result.total(figures, other_than(result.fitted_to)).n_hits;
   int most = 0;
   for (const auto& [name, n] : hits) most = std::max(most, n);
   return most;
@@ -122,8 +120,7 @@ std::string rivals_chart(const std::vector<RivalResult>& results,
                    most_hits(results, figures, RivalGroup::null)),
        fmt::format(
            "A filled tile: the paper's figure is within the central 95 % of {} simulated studies "
-           "of "
-           "13 people. Dark: the model was fitted to the other experiment. Pale: the figure was "
+           "of 13 people. Dark: the model was fitted to the other experiment. Pale: the figure was "
            "fitted. Gray: nothing was fitted. \"n of n\" counts the predicted tiles. From the top: "
            "four mechanisms, six null models, and an observer without noise as the bound of what "
            "the display shows. README.md has what follows. {}",

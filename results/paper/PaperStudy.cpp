@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <thread>
 
 #include "base/Parallel.h"
 #include "base/Program.h"
@@ -44,7 +43,7 @@ Setting setting_of(const StudyOptions& options) {
   setting.reported.push_back({{FigureKind::false_alarms, {}, ""}, {}, {}, 1, false});
   setting.figures = paper_figures(setting.reported);
   for (const ReportedFigure& figure : setting.reported) setting.places.push_back(figure.place);
-  setting.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  setting.jobs = n_processors();
   return setting;
 }
 
@@ -79,15 +78,11 @@ std::vector<ReportedFigure> fitted_figures(const Setting& setting, PaperExperime
   return fitted;
 }
 
-bool is_spread_of(const std::string& name) {
-  return name.ends_with(".spread");
-}
-
 std::vector<FreeParameter> narrowed(const std::vector<FreeEstimate>& found) {
   std::vector<FreeParameter> free;
   for (const FreeEstimate& one : found) {
     free.push_back(one.free);
-    if (is_spread_of(one.free.name)) continue;
+    if (one.free.name.ends_with(spread_ending)) continue;
     free.back().low = std::max(one.free.low, one.value / narrowing);
     free.back().high = std::min(one.free.high, one.value * narrowing);
   }

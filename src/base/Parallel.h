@@ -13,13 +13,17 @@
 
 namespace heft {
 
+inline int n_processors() {
+  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
 /// Calls work(first, last) for consecutive ranges that make up 0...n, each in its own thread, and
 /// waits for all. As many ranges as there are processors, or fewer of at least `at_least` items;
 /// one range runs in the caller's thread. What one throws is thrown again.
 template <typename Work>
 void in_parallel(std::size_t n, std::size_t at_least, const Work& work) {
-  const std::size_t n_processors = std::max(1u, std::thread::hardware_concurrency());
-  const std::size_t n_ranges = std::clamp<std::size_t>(n / at_least, 1, n_processors);
+  const std::size_t n_ranges =
+      std::clamp<std::size_t>(n / at_least, 1, static_cast<std::size_t>(n_processors()));
   std::vector<std::future<void>> others;  // these wait where they are destroyed
   for (std::size_t i = 1; i < n_ranges; ++i)
     others.push_back(std::async(

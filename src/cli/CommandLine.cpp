@@ -10,10 +10,10 @@
 #include <limits>
 #include <map>
 #include <span>
-#include <thread>
 
 #include "base/Error.h"
 #include "base/Names.h"
+#include "base/Parallel.h"
 #include "base/files/TextFile.h"
 #include "cli/Help.h"
 #include "cli/console/Terminal.h"
@@ -253,7 +253,7 @@ void Command::add_seed(std::optional<std::uint64_t>& seed, const std::string& wi
 }
 
 void Command::add_jobs(int& jobs, const std::string& what) {
-  jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  jobs = n_processors();
   add_option("--jobs", &jobs,
              fmt::format("threads; {} not depend on them (default: one per core)", what))
       .whole_number(1, 1024);
