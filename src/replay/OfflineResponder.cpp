@@ -159,11 +159,13 @@ class SessionJudge {
     ScreenState screen;
     block.trial(plan, seed())->show(screen);
     JudgedTrial trial = judged_trial(plan, *logged);
-    const TrialView view{
-        plan.trial_number,       plan.attempt, plan.task, stage, screen.offer, last_differed,
-        truth_of(protocol, plan)};
+    const TrialView displayed{plan.trial_number, plan.attempt, plan.task, stage,
+                              screen.offer,      last_differed};
     for (std::size_t i = 0; i < models_.size(); ++i) {
-      const auto draws = draws_of(models_[i].in_effect(attempt.row), view, seen, block, plan);
+      const Model::Draws& responders = models_[i].in_effect(attempt.row);
+      TrialView view = displayed;
+      if (responders.front()->knows_plan()) view.truth = truth_of(protocol, plan);
+      const auto draws = draws_of(responders, view, seen, block, plan);
       if (!draws) return leave_out(attempt, no_answer_of(models_[i].name()));
       trial.models.push_back(*draws);
     }
@@ -196,10 +198,8 @@ class SessionJudge {
                                       const std::vector<DisplayedFrame>& frames,
                                       const TaskBlock& block, const TrialPlan& plan) const {
     AnswerDraws draws;
-    TrialView displayed = view;
-    displayed.truth.reset();
     for (const auto& responder : responders) {
-      const auto answer = responder->judge(responder->knows_plan() ? view : displayed, frames);
+      const auto answer = responder->judge(view, frames);
       const auto judged = answer ? answered(block, plan, seed(), answer->actions) : nullptr;
       if (!judged) return std::nullopt;
       draws.add(word_of(*judged), judged->labels());
