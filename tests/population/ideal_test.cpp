@@ -12,7 +12,7 @@
 namespace heft {
 namespace {
 
-// Cubes that are hard to tell apart, sorted by the surrogate.
+// Cubes of similar masses, sorted by the surrogate.
 ResolvedConfig close_masses(const std::string& technique) {
   Protocol protocol = load_protocol(source_folder() + "/protocols/sorting.toml", {});
   for (Block& block : protocol.blocks)

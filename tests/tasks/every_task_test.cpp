@@ -207,28 +207,41 @@ TEST_P(EveryTask, IsPresentedAgainAfterVeto) {
 INSTANTIATE_TEST_SUITE_P(Each, EveryTask, ::testing::ValuesIn(words_of<Task>()),
                          [](const auto& task) { return std::string(task.param); });
 
+std::vector<TrialRow> comparisons_in(const StoredSession& stored) {
+  std::vector<TrialRow> completed = stored.reader().trials(stored.id());
+  std::erase_if(completed, [](const TrialRow& trial) {
+    return trial.plan.task != "comparison" || trial.status != TrialStatus::completed;
+  });
+  return completed;
+}
+
+std::vector<JudgedTrial> judged_comparisons(const StoredSession& stored,
+                                            const std::string& responder) {
+  std::vector<JudgedTrial> judged =
+      judge_session(stored.reader(), stored.session(), {{Plug{responder}}, 4}, nullptr, [](double) {
+      }).trials;
+  std::erase_if(judged, [](const JudgedTrial& trial) { return trial.task != "comparison"; });
+  return judged;
+}
+
 // A comparison without "no difference": every model names a cube, and the log is verified.
 TEST(ForcedChoice, IsSimulatedReplayedAndJudgedWithoutThirdAnswer) {
   for (const std::string responder : {"simulated", "coin", "always_no"}) {
     SCOPED_TRACE(responder);
     const StoredSession stored(testing::shipped_protocol("examples/forced_choice"), responder, 5);
     int n = 0;
-    for (const TrialRow& trial : stored.reader().trials(stored.id())) {
-      if (trial.plan.task != "comparison" || trial.status != TrialStatus::completed) continue;
+    for (const TrialRow& trial : comparisons_in(stored)) {
       EXPECT_EQ(trial.outcome, "difference");
       EXPECT_TRUE(trial.chosen_slot);
       ++n;
     }
     EXPECT_GE(n, 24 + 6);
     EXPECT_FALSE(verify_session(stored.reader(), stored.id(), [](double) {}).first);
-    const Judgments judgments = judge_session(stored.reader(), stored.session(),
-                                              {{Plug{responder}}, 4}, nullptr, [](double) {});
-    for (const JudgedTrial& trial : judgments.trials)
-      if (trial.task == "comparison") {
-        EXPECT_EQ(trial.n_answers, 2);
-        EXPECT_FALSE(trial.detects);
-        EXPECT_EQ(trial.models.at(0).n_of("none"), 0);
-      }
+    for (const JudgedTrial& trial : judged_comparisons(stored, responder)) {
+      EXPECT_EQ(trial.n_answers, 2);
+      EXPECT_FALSE(trial.detects);
+      EXPECT_EQ(trial.models.at(0).n_of("none"), 0);
+    }
   }
 }
 
@@ -238,8 +251,7 @@ TEST(SameDifferent, IsSimulatedReplayedAndJudgedWithoutCube) {
     SCOPED_TRACE(responder);
     const StoredSession stored(testing::shipped_protocol("examples/same_different"), responder, 5);
     std::map<std::string, int> n;
-    for (const TrialRow& trial : stored.reader().trials(stored.id())) {
-      if (trial.plan.task != "comparison" || trial.status != TrialStatus::completed) continue;
+    for (const TrialRow& trial : comparisons_in(stored)) {
       EXPECT_FALSE(trial.chosen_slot);
       ++n[std::string(*trial.outcome)];
     }
@@ -247,14 +259,11 @@ TEST(SameDifferent, IsSimulatedReplayedAndJudgedWithoutCube) {
     EXPECT_EQ(n["difference"] > 0, responder != "always_no");
     EXPECT_EQ(n["no_difference"] > 0, responder != "always_yes");
     EXPECT_FALSE(verify_session(stored.reader(), stored.id(), [](double) {}).first);
-    const Judgments judgments = judge_session(stored.reader(), stored.session(),
-                                              {{Plug{responder}}, 4}, nullptr, [](double) {});
-    for (const JudgedTrial& trial : judgments.trials)
-      if (trial.task == "comparison") {
-        EXPECT_EQ(trial.n_answers, 2);
-        EXPECT_TRUE(trial.detects);
-        EXPECT_EQ(trial.models.at(0).n_of("none") + trial.models.at(0).n_of("different"), 4);
-      }
+    for (const JudgedTrial& trial : judged_comparisons(stored, responder)) {
+      EXPECT_EQ(trial.n_answers, 2);
+      EXPECT_TRUE(trial.detects);
+      EXPECT_EQ(trial.models.at(0).n_of("none") + trial.models.at(0).n_of("different"), 4);
+    }
   }
 }
 

@@ -208,7 +208,8 @@ SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& 
       data.attempts, [](const Attempt& attempt) { return attempt.trial.plan.is_practice; }));
   data.setups = log.setups(id);
   const std::string& protocol_text = data.session.header.protocol_text;
-  const SessionConfig config = data.setups.empty() ? SessionConfig{} : data.setups.front().setup;
+  static const SessionConfig none;
+  const SessionConfig& config = data.setups.empty() ? none : data.setups.front().setup;
   const auto [found, is_new] = declared_by_text.try_emplace(
       {protocol_text, to_text(config.settings) + '\n' + config.texts.sha256});
   if (is_new) found->second = declared_in(protocol_text, config);

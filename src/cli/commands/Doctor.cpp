@@ -250,8 +250,7 @@ void check_as_before_a_session(Report& report, SessionOptions given, double rate
 }
 
 // Sessions with that display record it in their setup.
-void keep_latency(const std::string& file, const DisplayDelay& delay) {
-  DisplayMeasures measured = parse_display(read_text_file(file), file);
+void keep_latency(const std::string& file, DisplayMeasures measured, const DisplayDelay& delay) {
   measured.latency_ms = delay.figures_ms();
   replace_file(file, to_toml(measured));
   print("{} has it as [latency]: sessions with this display record it in their setup\n", file);
@@ -264,8 +263,9 @@ void measure_latency(const SessionOptions& given, double rate_hz, int display) {
     throw Error("--latency needs the camera that looks at the display: --tracker camera:0",
                 ExitCode::usage);
   const std::string file = given.display_file.value_or(default_display_file);
-  const bool is_measured = given.display_file || std::filesystem::exists(file);
-  if (is_measured) parse_display(read_text_file(file), file);  // before the work
+  std::optional<DisplayMeasures> measured;
+  if (given.display_file || std::filesystem::exists(file))
+    measured = parse_display(read_text_file(file), file);
   CameraRequest request;
   request.rate_hz = std::max(request.rate_hz, rate_hz);
   const auto camera = open_camera(given.tracker->name, given.tracker->what, request);
@@ -283,7 +283,7 @@ void measure_latency(const SessionOptions& given, double rate_hz, int display) {
   Report report;
   report.line(result.verdict, result.name, result.finding);
   if (report.failed()) throw Error("the display's delay was not measured");
-  if (is_measured) return keep_latency(file, delay);
+  if (measured) return keep_latency(file, *measured, delay);
   say("not recorded for sessions: there is no {}, which heft calibrate display makes\n", file);
 }
 

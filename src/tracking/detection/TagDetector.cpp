@@ -109,13 +109,20 @@ Region whole(const Image& image) {
   return {0, 0, image.width, image.height};
 }
 
+namespace {
+// Of a side, so that parts overlap.
+int more_than_half(int px) {
+  return px * 13 / 20;
+}
+}  // namespace
+
 Region half_of(const Image& gray, bool left) {
-  const int width_px = gray.width * 13 / 20;
+  const int width_px = more_than_half(gray.width);
   return {left ? 0 : gray.width - width_px, 0, width_px, gray.height};
 }
 
 Region quarter_of(const Image& gray, int number) {
-  const int width_px = gray.width * 13 / 20, height_px = gray.height * 13 / 20;
+  const int width_px = more_than_half(gray.width), height_px = more_than_half(gray.height);
   return {number % 2 == 0 ? 0 : gray.width - width_px, number < 2 ? 0 : gray.height - height_px,
           width_px, height_px};
 }
