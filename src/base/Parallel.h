@@ -14,16 +14,21 @@
 namespace heft {
 
 inline int n_processors() {
-  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  static const int n = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  return n;
 }
+
+/// Whether this thread works for run_jobs(): the processors are busy with other jobs.
+inline thread_local bool is_job = false;
 
 /// Calls work(first, last) for consecutive ranges that make up 0...n, each in its own thread, and
 /// waits for all. As many ranges as there are processors, or fewer of at least `at_least` items;
-/// one range runs in the caller's thread. What one throws is thrown again.
+/// one range runs in the caller's thread, and all of them in a job's. What one throws is thrown
+/// again.
 template <typename Work>
 void in_parallel(std::size_t n, std::size_t at_least, const Work& work) {
-  const std::size_t n_ranges =
-      std::clamp<std::size_t>(n / at_least, 1, static_cast<std::size_t>(n_processors()));
+  const std::size_t n_threads = is_job ? 1 : static_cast<std::size_t>(n_processors());
+  const std::size_t n_ranges = std::clamp<std::size_t>(n / at_least, 1, n_threads);
   std::vector<std::future<void>> others;  // these wait where they are destroyed
   for (std::size_t i = 1; i < n_ranges; ++i)
     others.push_back(std::async(
@@ -45,6 +50,7 @@ inline bool run_jobs(int n, int n_threads, const std::function<bool(int)>& work,
   int next = 0, n_done = 0;
   bool stopped = false;
   const auto run = [&] {
+    is_job = true;
     for (std::unique_lock lock(mutex); !error && !stopped && next < n;) {
       const int i = next++;
       lock.unlock();
