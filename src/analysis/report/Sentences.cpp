@@ -49,6 +49,14 @@ std::string control_verdict(const Hypothesis& blind, double margin_percent) {
     return fmt::format("answers in {} differ from chance", blind.condition);
   return "";
 }
+
+// "6 of 6 participants have none: all answers are the same: ..." as "all answers are the same".
+std::string short_reason(const std::string& why) {
+  constexpr std::string_view before = "none: ";
+  const std::size_t found = why.find(before);
+  const std::size_t begin = found == std::string::npos ? 0 : found + before.size();
+  return why.substr(begin, why.find_first_of(":,", begin) - begin);
+}
 }  // namespace
 
 std::string in_condition(const Summary& summary, const std::string& condition) {
@@ -62,12 +70,13 @@ std::vector<std::string> threshold_findings(const Summary& summary, std::string_
                                             std::string_view measure) {
   std::vector<std::string> parts;
   for (const StudyEstimate* one : estimates_of(summary.estimates, measure)) {
-    std::string part = one->value ? fmt::format("{:.0f} g", *one->value) : "none";
+    std::string part = one->value ? fmt::format("{:.0f} g", *one->value) : "not identifiable";
     if (one->value && one->low && one->high)
       part += fmt::format(" [{:.0f}, {:.0f}]", *one->low, *one->high);
     part += fmt::format(" at {:g} g {}", *one->reference_g, in_condition(summary, one->condition));
     if (one->value && !one->why.empty())
       part += fmt::format(", over the {} that can be estimated", counted(one->n, "participant"));
+    if (!one->value && !one->why.empty()) part += fmt::format(" ({})", short_reason(one->why));
     parts.push_back(part);
   }
   if (parts.empty()) return {};
