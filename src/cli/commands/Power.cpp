@@ -26,6 +26,8 @@ struct PowerOptions {
   std::vector<WhoAnswers> models;
   std::vector<ProtocolSetting> set;
   std::vector<int> participants{8, 13, 20};
+  std::string level = "surrogate";
+  std::optional<std::int64_t> confirm;
   int studies = 100;
   int jobs = 1;
   std::optional<std::uint64_t> seed;
@@ -67,26 +69,39 @@ class WorkFolder {
   fs::path path_;
 };
 
+// The studies of one model. Of one seed they have the same people at every level.
+Power power_of_model(const PowerOptions& options, const WhoAnswers& model, const std::string& level,
+                     const std::vector<int>& participants, std::uint64_t seed) {
+  SessionOptions given;
+  given.responder = model;
+  given.tracker = Plug{level};
+  given.settings = options.set;
+  given.protocol_file = options.protocol;
+  const WorkFolder folder;
+  const PowerRequest request{resolve(given, load_protocol(options.protocol, options.set), seed),
+                             participants, options.studies, options.jobs, folder.path()};
+  ProgressBar bar(fmt::format("{} ({})", to_text(model), level));
+  const auto progress = [&](double done) {
+    bar.update(done, fmt::format("{:.0f} of {} studies", done * options.studies, options.studies));
+  };
+  const StopOnSignal stop;
+  auto power = power_of(request, progress, stop.requested());
+  if (!power) throw Error("stopped before the last study", ExitCode::interrupted);
+  return std::move(*power);
+}
+
 void print_powers(const PowerOptions& options) {
   const std::uint64_t seed = options.seed ? *options.seed : fresh_seed();
-  const WorkFolder folder;
-  const StopOnSignal stop;
+  const std::string protocol = load_protocol(options.protocol, options.set).name;
   std::vector<ModelPower> all;
   for (const WhoAnswers& model : options.models) {
-    SessionOptions given;
-    given.responder = model;
-    given.settings = options.set;
-    given.protocol_file = options.protocol;
-    const PowerRequest request{resolve(given, load_protocol(options.protocol, options.set), seed),
-                               options.participants, options.studies, options.jobs, folder.path()};
-    ProgressBar bar(to_text(model));
-    const auto progress = [&](double done) {
-      bar.update(done,
-                 fmt::format("{:.0f} of {} studies", done * options.studies, options.studies));
-    };
-    auto power = power_of(request, progress, stop.requested());
-    if (!power) throw Error("stopped before the last study", ExitCode::interrupted);
-    all.push_back({request.config->protocol->name, to_text(model), seed, std::move(*power)});
+    all.push_back({protocol, to_text(model), seed, options.level,
+                   power_of_model(options, model, options.level, options.participants, seed),
+                   std::nullopt});
+    if (options.confirm)
+      all.back().whole =
+          power_of_model(options, model, "hand", {static_cast<int>(*options.confirm)}, seed)
+              .sizes.front();
   }
   if (!options.chart.empty()) draw_power(all.front(), options.chart);
   if (options.json) return fmt::print("{}", as_json(all));
@@ -102,6 +117,10 @@ void check(const PowerOptions& options) {
   for (const WhoAnswers& model : options.models)
     if (std::holds_alternative<Person>(model))
       refuse("--model human: power comes from simulated people; expected a model");
+  if (options.confirm && options.level == "hand")
+    refuse("--confirm has no effect with --level hand: all studies are whole sessions");
+  if (options.confirm && !std::ranges::count(options.participants, *options.confirm))
+    refuse("--confirm: expected one of the sizes of --participants");
   if (options.json && options.tables) refuse("--tables has no effect with --json");
   if (!options.chart.empty() && !options.chart.ends_with(".svg"))
     refuse("--chart: expected a file that ends in .svg");
@@ -117,6 +136,7 @@ void add_power(Command& app) {
       {"heft power protocols/paper.toml",
        "heft power protocols/recommended.toml --participants 10,20,40 --studies 200 --chart "
        "power.svg",
+       "heft power protocols/jnd.toml --participants 8,13 --confirm 13",
        "heft power protocols/jnd.toml --model simulated:mine.toml --model coin --json"});
   command.add_option("PROTOCOL", &options->protocol, "a protocol file").required();
   const auto read_model = [options](const std::string& text) {
@@ -132,6 +152,15 @@ void add_power(Command& app) {
   command.add_option("--studies", &options->studies, "simulated studies of each size")
       .shows_default()
       .whole_number(2, 100000);
+  command
+      .add_option("--level", &options->level,
+                  "surrogate: straight strokes alone, fast; hand: whole sessions")
+      .one_of({"surrogate", "hand"})
+      .shows_default();
+  command
+      .add_option("--confirm", &options->confirm,
+                  "N, one of the sizes: the same studies of it by whole sessions, too")
+      .whole_number(1, 10000);
   command.add_jobs(options->jobs, "the result does");
   command.add_seed(options->seed, "drawn and printed");
   command.add_option("--chart", &options->chart, "FILE.svg: power and precision by size");

@@ -23,6 +23,8 @@ double share_of(const HypothesisPower& power) {
 }
 
 std::string number(double value) {
+  constexpr double most_digits = 1e5;
+  if (std::abs(value) >= most_digits) return fmt::format("{:.0e}", value);
   return std::abs(value) >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
 
@@ -62,12 +64,20 @@ const HypothesisPower* at_size(const PowerAtSize& size, const std::string& name)
   return found == size.hypotheses.end() ? nullptr : &*found;
 }
 
-// The smallest, a middle and the largest size.
-std::vector<const PowerAtSize*> columns_of(const Power& power, bool tables) {
+// The smallest, a middle and the largest size; one by whole sessions after its surrogates.
+std::vector<const PowerAtSize*> columns_of(const ModelPower& found, bool tables) {
+  const std::vector<PowerAtSize>& sizes = found.power.sizes;
   std::vector<const PowerAtSize*> columns;
-  for (const PowerAtSize& size : power.sizes) columns.push_back(&size);
+  for (const PowerAtSize& size : sizes) {
+    columns.push_back(&size);
+    if (found.whole && found.whole->participants == size.participants)
+      columns.push_back(&*found.whole);
+  }
   if (tables || columns.size() <= most_columns) return columns;
-  return {columns.front(), columns[columns.size() / 2], columns.back()};
+  if (!found.whole) return {columns.front(), columns[columns.size() / 2], columns.back()};
+  const auto whole = std::ranges::find(columns, &*found.whole);
+  if (whole == columns.end() - 1) return {columns.front(), *(whole - 1), *whole};
+  return {*(whole - 1), *whole, columns.back()};
 }
 
 std::string cell(const HypothesisPower* power) {
@@ -83,13 +93,14 @@ std::string cell(const EstimatePrecision* one) {
                      number(one->median_high), often);
 }
 
-void print_table(const Power& power, bool tables) {
-  const auto columns = columns_of(power, tables);
-  const PowerAtSize& largest = power.sizes.back();
+void print_table(const ModelPower& found, bool tables) {
+  const auto columns = columns_of(found, tables);
+  const PowerAtSize& largest = found.power.sizes.back();
   const auto head = [&](const char* what) {
     print("\n{:<20}", what);
     for (const PowerAtSize* size : columns)
-      print(" {:>19}", fmt::format("{} people", size->participants));
+      print(" {:>19}", fmt::format("{} {}", size->participants,
+                                   found.whole && size == &*found.whole ? "whole" : "people"));
     print("\n");
   };
   if (!largest.hypotheses.empty()) head("hypothesis supported");
@@ -197,11 +208,12 @@ void print_power(const ModelPower& found, bool tables) {
   const Power& power = found.power;
   print("protocol {}, model {}: {} simulated studies of each size (--seed {})\n", found.protocol,
         found.model, power.n_studies, found.seed);
-  print_table(power, tables);
+  print_table(found, tables);
   print("\n");
   if (!power.sizes.back().hypotheses.empty())
     print("{}\n", sentence_of_hypotheses(power.sizes.back()));
   print("{}", sentence_of_precision(power.sizes.back()));
+  if (found.whole) print("whole: the same studies by whole sessions (--level hand)\n");
   print(
       "Figures and interval ends are medians over studies; *: not in all of them.\n"
       "They hold for people of this model: repeat with others (--model).{}\n",
@@ -212,14 +224,17 @@ std::string as_json(const std::vector<ModelPower>& all) {
   ordered_json models = ordered_json::array();
   for (const ModelPower& found : all) {
     ordered_json sizes = ordered_json::array();
-    for (const PowerAtSize& size : found.power.sizes) {
+    const auto put = [&sizes](const PowerAtSize& size, const std::string& level) {
       ordered_json hypotheses = ordered_json::array(), estimates = hypotheses;
       for (const HypothesisPower& one : size.hypotheses) hypotheses.push_back(object_of(one));
       for (const EstimatePrecision& one : size.estimates) estimates.push_back(object_of(one));
       sizes.push_back({{"participants", size.participants},
+                       {"level", level},
                        {"hypotheses", hypotheses},
                        {"estimates", estimates}});
-    }
+    };
+    for (const PowerAtSize& size : found.power.sizes) put(size, found.level);
+    if (found.whole) put(*found.whole, "hand");
     models.push_back({{"protocol", found.protocol},
                       {"model", found.model},
                       {"seed", found.seed},

@@ -81,7 +81,9 @@ void print_rerun(const OtherResponder& other);
 struct ModelPower {
   std::string protocol, model;
   std::uint64_t seed = 0;
+  std::string level;  ///< surrogate or hand
   Power power;
+  std::optional<PowerAtSize> whole;  ///< one size of the same studies by level hand
 };
 
 /// Hypotheses and the main figures at three sizes, and what they mean.

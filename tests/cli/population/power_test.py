@@ -48,9 +48,22 @@ class Power(SessionTest):
         self.assertGreater(correct(simulated), 90)
         self.assertLess(correct(coin), 60)
 
+    def test_a_size_is_confirmed_by_whole_sessions(self):
+        words = [*SHORT, "--confirm", 4]
+        said = self.run_heft(*words).stdout
+        self.assertIn("4 people             4 whole", said)
+        self.assertIn("whole: the same studies by whole sessions", said)
+        sizes = json.loads(self.run_heft(*words, "--json").stdout)["models"][0]["sizes"]
+        self.assertEqual([(size["participants"], size["level"]) for size in sizes],
+                         [(2, "surrogate"), (4, "surrogate"), (4, "hand")])
+        whole = json.loads(self.run_heft(*SHORT, "--level", "hand", "--json").stdout)
+        self.assertEqual(whole["models"][0]["sizes"][1], sizes[2])
+
     def test_mistakes_are_refused(self):
         for words in (["--participants", "2,,4"], ["--participants", "0"], ["--participants", "x"],
-                      ["--participants", "2,"], ["--studies", "1"], ["--model", "human"],
+                      ["--participants", "2,"], ["--studies", "1"], ["--confirm", "5"],
+                      ["--participants", "4", "--confirm", "4", "--level", "hand"],
+                      ["--level", "camera"], ["--model", "human"],
                       ["--model", "simulatd"], ["--chart", "a.png"], ["--json", "--tables"],
                       ["--model", "coin", "--model", "simulated", "--chart", "a.svg"]):
             self.run_heft("power", PROTOCOLS / "quick.toml", *words, expect=2)
