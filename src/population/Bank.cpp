@@ -129,6 +129,7 @@ std::optional<Bank> Bank::simulate(const Request& request,
   const auto n_places = static_cast<Eigen::Index>(request.places.size());
   bank.logs_.resize(request.people, n_drawn);
   bank.figures_.setConstant(request.people, n_places, std::numeric_limits<double>::quiet_NaN());
+  bank.answers_.resize(request.people, static_cast<Eigen::Index>(request.logged.size()));
   const ResolvedModel& model = request.config->model;
 
   const auto simulate_one = [&](int i) {
@@ -146,6 +147,12 @@ std::optional<Bank> Bank::simulate(const Request& request,
       options.parameters.push_back({drawn.name + ".spread", 0.0, {}});
     }
     const auto responder = model.entry->make(options);
+    if (!request.logged.empty()) {
+      const AnswerCounts answers = answers_of_one(request.config, *responder, options.seed);
+      for (Eigen::Index k = 0; k < bank.answers_.cols(); ++k)
+        bank.answers_(i, k) = log_likelihood(request.logged[static_cast<std::size_t>(k)], answers);
+      return;
+    }
     const auto figures = figures_of_one(request.config, *responder, options.seed, request.places);
     for (Eigen::Index f = 0; f < n_places; ++f)
       if (const auto value = figures[static_cast<std::size_t>(f)]) bank.figures_(i, f) = *value;
@@ -158,7 +165,7 @@ std::optional<Bank> Bank::simulate(const Request& request,
   return bank;
 }
 
-void Bank::moments(const Parameters& at, std::vector<Moments>& moments) const {
+Eigen::ArrayXd Bank::weights(const Parameters& at) const {
   Eigen::ArrayXd exponents = Eigen::ArrayXd::Zero(logs_.rows());
   for (std::size_t k = 0; k < drawn_.size(); ++k) {
     const Drawn& drawn = drawn_[k];
@@ -169,7 +176,24 @@ void Bank::moments(const Parameters& at, std::vector<Moments>& moments) const {
         ((logs_.col(static_cast<Eigen::Index>(k)).array() - std::log(median)) / spread).square() /
         2;
   }
-  const Eigen::ArrayXd weights = (exponents - exponents.maxCoeff()).exp();
+  return (exponents - exponents.maxCoeff()).exp();
+}
+
+Bank::AnswersLikelihood Bank::of_answers(const Parameters& at) const {
+  const Eigen::ArrayXd density = weights(at);
+  AnswersLikelihood found{0, static_cast<double>(people())};
+  for (Eigen::Index k = 0; k < answers_.cols(); ++k) {
+    const double most = answers_.col(k).maxCoeff();
+    const Eigen::ArrayXd fitting = density * (answers_.col(k).array() - most).exp();
+    found.log_likelihood += most + std::log(fitting.sum() / density.sum());
+    found.effective =
+        std::min(found.effective, fitting.sum() * fitting.sum() / fitting.square().sum());
+  }
+  return found;
+}
+
+void Bank::moments(const Parameters& at, std::vector<Moments>& moments) const {
+  const Eigen::ArrayXd weights = this->weights(at);
   moments.assign(places_.size(), {});
   for (std::size_t f = 0; f < places_.size(); ++f) {
     const auto column = figures_.col(static_cast<Eigen::Index>(f)).array();

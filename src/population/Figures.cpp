@@ -10,7 +10,6 @@
 #include "inference/Proportion.h"
 #include "inference/Statistics.h"
 #include "protocol/toml/TableReader.h"
-#include "record/stream/EventSink.h"
 #include "session/Runner.h"
 #include "view/ArView.h"
 
@@ -145,19 +144,24 @@ std::vector<ReportedFigure> parse_figures(const std::string& text, const std::st
   return figures;
 }
 
-std::vector<std::optional<double>> figures_of_one(const ResolvedConfig& config,
-                                                  Responder& responder, std::uint64_t seed,
-                                                  std::span<const FigurePlace> places) {
+void run_alone(const ResolvedConfig& config, Responder& responder, std::uint64_t seed,
+               EventSink& sink) {
   const Protocol& protocol = *config->protocol;
   Engine engine(config->protocol, seed);
-  FigureSink sink;
   engine.apply(Event{0, config->config});
   SessionClock clock = SessionClock::virtual_from(0);
   HandPictures pictures(responder, protocol.display_rate_hz);
   const auto view = view_named("headless").make({});
   SessionParts parts{protocol, engine, sink, pictures, responder, *view, clock};
-  parts.has_pictures = false;
+  parts.has_pictures = config->tracker->has_pictures;
   Runner(parts, {}).run();
+}
+
+std::vector<std::optional<double>> figures_of_one(const ResolvedConfig& config,
+                                                  Responder& responder, std::uint64_t seed,
+                                                  std::span<const FigurePlace> places) {
+  FigureSink sink;
+  run_alone(config, responder, seed, sink);
   std::vector<std::optional<double>> figures;
   for (const FigurePlace& place : places) figures.push_back(sink.figure(place));
   return figures;

@@ -11,6 +11,7 @@
 
 #include "apparatus/configuration/ResolvedConfig.h"
 #include "base/Names.h"
+#include "record/stream/EventSink.h"
 
 namespace heft {
 
@@ -64,9 +65,13 @@ struct ReportedFigure {
 /// @throws InvalidFile naming each mistake at its place
 std::vector<ReportedFigure> parse_figures(const std::string& text, const std::string& file);
 
-/// One participant's contribution to each figure, from a session by the surrogate; none: they have
-/// no such trial, or no estimate.
-/// @param config of a protocol whose tracker is the surrogate
+/// One participant's session without a log.
+/// @param config whose tracker is `surrogate` or `hand`
+void run_alone(const ResolvedConfig& config, Responder& responder, std::uint64_t seed,
+               EventSink& sink);
+
+/// One participant's contribution to each figure, from such a session; none: they have no such
+/// trial, or no estimate.
 std::vector<std::optional<double>> figures_of_one(const ResolvedConfig& config,
                                                   Responder& responder, std::uint64_t seed,
                                                   std::span<const FigurePlace> places);

@@ -54,10 +54,24 @@ Parameters exponentials(const Parameters& logs) {
   return logs.array().exp();
 }
 
-class FiguresLikelihood {
+using ValueAt = std::function<double(const Parameters& at)>;
+
+ValueAt likelihood_of(const Bank& bank, std::span<const ReportedFigure> figures) {
+  return [&bank, figures, moments = std::vector<Bank::Moments>()](const Parameters& at) mutable {
+    bank.moments(at, moments);
+    double sum = 0;
+    for (std::size_t f = 0; f < figures.size(); ++f) {
+      if (!figures[f].fitted || !figures[f].mean) continue;
+      if (!(moments[f].effective > few_people)) return -1e9;
+      sum += compared(figures[f], moments[f]).log_likelihood;
+    }
+    return sum;
+  };
+}
+
+class BankLikelihood {
  public:
-  FiguresLikelihood(const Bank& bank, std::span<const ReportedFigure> figures)
-      : bank_(bank), figures_(figures) {}
+  explicit BankLikelihood(ValueAt value_at) : value_at_(std::move(value_at)) {}
 
   double operator()(const Parameters& logs, Derivatives* derivatives) {
     const double here = value(logs);
@@ -66,16 +80,7 @@ class FiguresLikelihood {
   }
 
  private:
-  double value(const Parameters& logs) {
-    bank_.moments(exponentials(logs), moments_);
-    double sum = 0;
-    for (std::size_t f = 0; f < figures_.size(); ++f) {
-      if (!figures_[f].fitted || !figures_[f].mean) continue;
-      if (!(moments_[f].effective > few_people)) return -1e9;
-      sum += compared(figures_[f], moments_[f]).log_likelihood;
-    }
-    return sum;
-  }
+  double value(const Parameters& logs) { return value_at_(exponentials(logs)); }
 
   // Central differences.
   void differentiate(const Parameters& at, double here, Derivatives& derivatives) {
@@ -98,9 +103,7 @@ class FiguresLikelihood {
     }
   }
 
-  const Bank& bank_;
-  std::span<const ReportedFigure> figures_;
-  std::vector<Bank::Moments> moments_;
+  ValueAt value_at_;
 };
 
 // Starts spread over the bounds, one group each: there may be several maxima.
@@ -142,17 +145,15 @@ void require_figures(const Bank& bank, std::span<const ReportedFigure> figures) 
                   ExitCode::usage);
 }
 
-}  // namespace
-
-ResponderFit fit_responder(const Bank& bank, std::span<const ReportedFigure> figures,
-                           bool with_intervals) {
+// The parameters and what the data do not separate. @param at put there: the estimates
+ResponderFit fit_parameters(const Bank& bank, ValueAt value_at, bool with_intervals,
+                            Parameters& at) {
   std::vector<ParameterBounds> bounds;
   for (const FreeParameter& free : bank.free())
     bounds.push_back({std::log(free.low), std::log(free.high), with_intervals});
-  require_figures(bank, figures);
-  FiguresLikelihood likelihood(bank, figures);
-  const LogLikelihood function = [&](const Parameters& at, Derivatives* derivatives) {
-    return likelihood(at, derivatives);
+  BankLikelihood likelihood(std::move(value_at));
+  const LogLikelihood function = [&](const Parameters& there, Derivatives* derivatives) {
+    return likelihood(there, derivatives);
   };
   const LikelihoodFit found = maximize_likelihood(function, bounds, starts_within(bounds));
 
@@ -168,8 +169,22 @@ ResponderFit fit_responder(const Bank& bank, std::span<const ReportedFigure> fig
     fit.parameters.push_back({bank.free()[k], std::exp(one.value), end(one.low, bounds[k].low),
                               end(one.high, bounds[k].high)});
   }
+  Derivatives derivatives{Parameters(logs.size()), Curvature(logs.size(), logs.size())};
+  likelihood(logs, &derivatives);
+  fit.alike = pairs_alike(bank, derivatives.hessian);
+  at = exponentials(logs);
+  return fit;
+}
+
+}  // namespace
+
+ResponderFit fit_responder(const Bank& bank, std::span<const ReportedFigure> figures,
+                           bool with_intervals) {
+  require_figures(bank, figures);
+  Parameters at;
+  ResponderFit fit = fit_parameters(bank, likelihood_of(bank, figures), with_intervals, at);
   std::vector<Bank::Moments> moments;
-  bank.moments(exponentials(logs), moments);
+  bank.moments(at, moments);
   fit.effective = bank.people();
   for (std::size_t f = 0; f < figures.size(); ++f) {
     const ComparedFigure figure = compared(figures[f], moments[f]);
@@ -179,9 +194,16 @@ ResponderFit fit_responder(const Bank& bank, std::span<const ReportedFigure> fig
     if (figures[f].fitted && n > 0) fit.effective = std::min(fit.effective, moments[f].effective);
     fit.figures.push_back(figure);
   }
-  Derivatives derivatives{Parameters(logs.size()), Curvature(logs.size(), logs.size())};
-  likelihood(logs, &derivatives);
-  fit.alike = pairs_alike(bank, derivatives.hessian);
+  return fit;
+}
+
+ResponderFit fit_responder_to_answers(const Bank& bank) {
+  const auto value = [&bank](const Parameters& at) { return bank.of_answers(at).log_likelihood; };
+  Parameters at;
+  ResponderFit fit = fit_parameters(bank, value, true, at);
+  const Bank::AnswersLikelihood found = bank.of_answers(at);
+  fit.fitted = found.log_likelihood;
+  fit.effective = found.effective;
   return fit;
 }
 

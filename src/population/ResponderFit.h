@@ -1,4 +1,5 @@
-// Which populations of simulated participants give the figures that a study reports.
+// Which populations of simulated participants give the figures that a study reports, or the answers
+// of a log.
 //
 // Simulating every population that a search visits would take days. Instead, a bank of participants
 // is simulated once: their free parameters are spread evenly over the bounds (logarithms), the
@@ -11,6 +12,10 @@
 // sd^2 / n, the logarithm of a reported standard deviation normal with variance (kurtosis - 1) /
 // 4n. Correlations between figures are not modeled. A population's own error (that of the bank) is
 // added to both.
+//
+// Of a log's people: each one's answers have a probability in each participant of the bank, who
+// answers the same stimuli many times. The likelihood of a population is the product over people of
+// the weighted mean of that probability, so that each person is someone of the population.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,6 +28,7 @@
 
 #include "inference/MaximumLikelihood.h"
 #include "population/Figures.h"
+#include "population/LoggedAnswers.h"
 
 namespace heft {
 
@@ -45,6 +51,8 @@ class Bank {
     std::vector<FigurePlace> places;
     int people = 4000;
     int jobs = 1;
+    /// People whose answers are to have a likelihood; the protocol repeats their stimuli.
+    std::vector<AnswerCounts> logged = {};
   };
 
   /// @param progress called with the fraction done, from the calling thread
@@ -64,13 +72,20 @@ class Bank {
   /// @param moments one for each place; the mean is NaN where no participant has the figure
   void moments(const Parameters& at, std::vector<Moments>& moments) const;
 
+  /// The answers of the logged people in a population.
+  struct AnswersLikelihood {
+    double log_likelihood = 0;
+    double effective = 0;  ///< smallest number of participants that one person's answers fit
+  };
+  AnswersLikelihood of_answers(const Parameters& at) const;
+
   const std::vector<FreeParameter>& free() const { return free_; }
   const std::vector<FigurePlace>& places() const { return places_; }
   /// Whether any participant has the figure of that place.
   bool has(std::size_t place) const {
     return !figures_.col(static_cast<Eigen::Index>(place)).array().isNaN().all();
   }
-  int people() const { return static_cast<int>(figures_.rows()); }
+  int people() const { return static_cast<int>(logs_.rows()); }
 
  private:
   struct Drawn {
@@ -80,12 +95,14 @@ class Bank {
     double fixed_median = 0, fixed_spread = 0;
   };
   void plan(const Request& request);
+  Eigen::ArrayXd weights(const Parameters& at) const;  // the largest is 1
 
   std::vector<FreeParameter> free_;
   std::vector<FigurePlace> places_;
   std::vector<Drawn> drawn_;
   Eigen::MatrixXd logs_;     ///< participant x drawn
   Eigen::MatrixXd figures_;  ///< participant x place; NaN: none
+  Eigen::MatrixXd answers_;  ///< participant x logged person: log likelihoods
 };
 
 /// One fitted parameter with its 95 % profile interval within the bounds.
@@ -107,10 +124,11 @@ struct ComparedFigure {
 
 struct ResponderFit {
   std::vector<FreeEstimate> parameters;
-  std::vector<ComparedFigure> figures;
-  double fitted = 0, held_out = 0;   ///< log likelihoods of the figures that were fitted and not
-  int n_fitted = 0, n_held_out = 0;  ///< means and standard deviations
-  double effective = 0;  ///< smallest effective number of participants behind a fitted figure
+  std::vector<ComparedFigure> figures;  ///< none: fitted to answers
+  double fitted = 0, held_out = 0;      ///< log likelihoods of what was fitted and what was not
+  int n_fitted = 0, n_held_out = 0;     ///< means and standard deviations
+  /// Smallest effective number of participants behind a fitted figure, or one person's answers.
+  double effective = 0;
   /// Pairs of free parameters that trade for each other: correlation of the estimates, |r| above
   /// .8.
   struct Pair {
@@ -126,5 +144,8 @@ struct ResponderFit {
 /// @throws Error (usage) naming a fitted figure that no participant of the bank has
 ResponderFit fit_responder(const Bank& bank, std::span<const ReportedFigure> figures,
                            bool with_intervals = true);
+
+/// The population that the logged people of the bank come from.
+ResponderFit fit_responder_to_answers(const Bank& bank);
 
 }  // namespace heft

@@ -1,4 +1,4 @@
-// heft fit-responder: the population of simulated participants behind reported figures.
+// heft fit-responder: the population of simulated participants behind reported figures or a log.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,18 +20,22 @@ namespace {
 using nlohmann::ordered_json;
 
 struct FitResponderOptions {
-  std::string protocol, figures, save;
+  std::string protocol, figures, db, save;
   std::optional<WhoAnswers> model;
   std::vector<FreeParameter> free;
   std::vector<ProtocolSetting> set;
   int people = 4000;
+  int repeats = 40;
   int jobs = 1;
   std::optional<std::uint64_t> seed;
-  bool json = false;
+  bool json = false, unverified = false;
+
+  const std::string& data() const { return db.empty() ? figures : db; }
 };
 
 // The bank's error must be small beside that of the reported figures.
-constexpr double enough_per_person = 5;
+constexpr int enough_per_person = 5;
+constexpr int enough_for_answers = 10;
 
 std::string number(double value) {
   return fmt::format("{:.3g}", value);
@@ -61,12 +65,15 @@ std::string_view role_of(const ComparedFigure& one) {
   return one.reported.fitted ? "fitted" : "held out";
 }
 
-void print_fit(const ResponderFit& fit, int people) {
+void print_parameters(const ResponderFit& fit) {
   print("{:<28} {:>9}  {:<20}\n", "parameter", "estimate", "95 % interval");
   for (const FreeEstimate& one : fit.parameters)
     print(
         "{:<28} {:>9}  {:<20} {}\n", one.free.name, number(one.value), interval_of(one),
         one.identified() ? "" : fmt::format("open within {:g}..{:g}", one.free.low, one.free.high));
+}
+
+void print_figures(const ResponderFit& fit) {
   print("\n{:<26} {:>8} {:>8} {:>6}   {:>8} {:>8} {:>6}\n", "figure", "mean", "model", "z", "SD",
         "model", "z");
   for (const ComparedFigure& one : fit.figures)
@@ -79,16 +86,24 @@ void print_fit(const ResponderFit& fit, int people) {
   if (fit.n_held_out > 0)
     print(", held out {:.2f} ({})", fit.held_out, fmt::format("{} means and SDs", fit.n_held_out));
   print("\n");
+}
+
+void print_cautions(const ResponderFit& fit, int people, int n_least) {
   for (const ResponderFit::Pair& pair : fit.alike)
-    print("these figures hardly separate {} and {}: their estimates correlate by {:.2f}\n",
-          pair.first, pair.second, pair.correlation);
+    print("the data hardly separate {} and {}: their estimates correlate by {:.2f}\n", pair.first,
+          pair.second, pair.correlation);
+  if (fit.effective < n_least)
+    print(
+        "caution: only {:.0f} of {} simulated participants are like {}; take more with --people, "
+        "or narrower bounds\n",
+        fit.effective, people, fit.figures.empty() ? "one of the people" : "this population");
+}
+
+// People in the bank for each one of the largest study.
+int least_effective(const ResponderFit& fit) {
   int n_largest = 0;
   for (const ComparedFigure& one : fit.figures) n_largest = std::max(n_largest, one.reported.n);
-  if (fit.effective < enough_per_person * n_largest)
-    print(
-        "caution: only {:.0f} of {} simulated participants are like this population; take more "
-        "with --people, or narrower bounds\n",
-        fit.effective, people);
+  return enough_per_person * n_largest;
 }
 
 ordered_json json_of(const std::optional<double>& value) {
@@ -107,6 +122,7 @@ std::string as_json(const ResponderFit& fit, int people, std::uint64_t seed) {
                                   {"low", json_of(one.low)},
                                   {"high", json_of(one.high)},
                                   {"bounds", {one.free.low, one.free.high}}});
+  root["figures"] = ordered_json::array();
   for (const ComparedFigure& one : fit.figures)
     root["figures"].push_back({{"figure", name_of(one.reported.place.kind)},
                                {"reference_g", json_of(one.reported.place.reference_g)},
@@ -127,8 +143,8 @@ std::string as_json(const ResponderFit& fit, int people, std::uint64_t seed) {
 // The model's file with the fitted values; what was not free stays.
 std::string model_file(const ResponderFit& fit, const ResponderOptions& given,
                        const FitResponderOptions& options) {
-  std::string text = fmt::format("# Fitted by heft fit-responder to {}, protocol {}.\n",
-                                 options.figures, options.protocol);
+  std::string text = fmt::format("# Fitted by heft fit-responder to {}{}.\n", options.data(),
+                                 options.db.empty() ? ", protocol " + options.protocol : "");
   const auto is_fitted = [&](std::string_view name) {
     return std::ranges::any_of(fit.parameters, [&](const FreeEstimate& one) {
       return one.free.name == without_median(name);
@@ -148,39 +164,93 @@ std::string model_file(const ResponderFit& fit, const ResponderOptions& given,
   return text;
 }
 
-void fit_the_responder(const FitResponderOptions& options) {
+// @param protocol with the trials of the fit
+ResolvedConfig config_of(const FitResponderOptions& options, const Protocol& protocol,
+                         std::uint64_t seed) {
   SessionOptions given;
   given.responder = options.model.value_or(Plug{"simulated"});
   given.tracker = Plug{"surrogate"};
   given.settings = options.set;
   given.protocol_file = options.protocol;
-  const std::uint64_t seed = options.seed ? *options.seed : 1;
+  return resolve(given, protocol, seed);
+}
+
+Bank bank_of(const Bank::Request& request) {
+  const StopOnSignal stop;
+  ProgressBar bar("simulating people");
+  const auto progress = [&](double done) {
+    bar.update(done, fmt::format("{:.0f} of {} people", done * request.people, request.people));
+  };
+  auto bank = Bank::simulate(request, progress, stop.requested());
+  if (!bank) throw Error("stopped before the last simulated person", ExitCode::interrupted);
+  return std::move(*bank);
+}
+
+void save_and_advise(const FitResponderOptions& options, const ResponderFit& fit,
+                     const Bank::Request& request) {
+  if (options.save.empty()) return;
+  replace_text_file(options.save, model_file(fit, request.config->model.options, options));
+  say("model: {}; next: heft simulate {} --responder population:{}\n", options.save,
+      options.db.empty() ? options.protocol : "PROTOCOL", options.save);
+}
+
+void fit_to_figures(const FitResponderOptions& options, std::uint64_t seed) {
   const std::vector<ReportedFigure> figures =
       parse_figures(read_text_file(options.figures), options.figures);
-  Bank::Request request{resolve(given, load_protocol(options.protocol, options.set), seed),
+  Bank::Request request{config_of(options, load_protocol(options.protocol, options.set), seed),
                         options.free,
                         {},
                         options.people,
                         options.jobs};
   for (const ReportedFigure& figure : figures) request.places.push_back(figure.place);
-  const StopOnSignal stop;
-  std::optional<Bank> bank;
-  {
-    ProgressBar bar("simulating people");
-    const auto progress = [&](double done) {
-      bar.update(done, fmt::format("{:.0f} of {} people", done * options.people, options.people));
-    };
-    bank = Bank::simulate(request, progress, stop.requested());
+  const ResponderFit fit = fit_responder(bank_of(request), figures);
+  if (options.json) {
+    fmt::print("{}", as_json(fit, options.people, seed));
+  } else {
+    print_parameters(fit);
+    print_figures(fit);
+    print_cautions(fit, options.people, least_effective(fit));
   }
-  if (!bank) throw Error("stopped before the last simulated person", ExitCode::interrupted);
-  const ResponderFit fit = fit_responder(*bank, figures);
-  if (!options.save.empty())
-    replace_text_file(options.save, model_file(fit, request.config->model.options, options));
-  if (options.json) return fmt::print("{}", as_json(fit, options.people, seed));
-  print_fit(fit, options.people);
-  if (!options.save.empty())
-    print("model: {}; next: heft simulate {} --responder population:{}\n", options.save,
-          options.protocol, options.save);
+  save_and_advise(options, fit, request);
+}
+
+void fit_to_log(const FitResponderOptions& options, std::uint64_t seed) {
+  const LogIntegrity integrity = integrity_of({options.db}, {}, options.unverified);
+  const LoggedPeople logged = logged_people(LogReader(options.db), options.db);
+  const Bank::Request request{config_of(options, repeated_stimuli(logged, options.repeats), seed),
+                              options.free,
+                              {},
+                              options.people,
+                              options.jobs,
+                              logged.people};
+  const ResponderFit fit = fit_responder_to_answers(bank_of(request));
+  if (options.json) {
+    fmt::print("{}", as_json(fit, options.people, seed));
+  } else {
+    print("{} by {} of {} ({})\n\n", counted(logged.n_trials, "answer"),
+          counted(static_cast<int>(logged.people.size()), "participant"), options.db,
+          integrity.words);
+    print_parameters(fit);
+    print("\nlog likelihood: {:.2f}, {:.3f} per answer\n", fit.fitted,
+          fit.fitted / logged.n_trials);
+    print_cautions(fit, options.people, enough_for_answers);
+  }
+  save_and_advise(options, fit, request);
+}
+
+void fit_the_responder(const FitResponderOptions& options) {
+  const std::uint64_t seed = options.seed ? *options.seed : 1;
+  if (options.free.empty())
+    throw Error("--free: expected at least one free parameter", ExitCode::usage);
+  if (options.db.empty() == options.figures.empty())
+    throw Error("expected PROTOCOL with --figures FILE, or --db LOG", ExitCode::usage);
+  if (options.db.empty() == options.protocol.empty())
+    throw Error(options.db.empty() ? "--figures: expected PROTOCOL, too"
+                                   : "--db: the log has its protocol; expected no PROTOCOL",
+                ExitCode::usage);
+  if (!options.db.empty() && !options.set.empty())
+    throw Error("--set: the log has its protocol's settings; expected none", ExitCode::usage);
+  options.db.empty() ? fit_to_figures(options, seed) : fit_to_log(options, seed);
 }
 
 }  // namespace
@@ -188,16 +258,18 @@ void fit_the_responder(const FitResponderOptions& options) {
 void add_fit_responder(Command& app) {
   const auto options = std::make_shared<FitResponderOptions>();
   Command command = app.add_command(
-      "fit-responder", "which simulated people give a study's figures",
+      "fit-responder", "which simulated people give a study's figures or a log's answers",
       {"heft fit-responder protocols/paper.toml --figures protocols/examples/paper_figures.toml "
        "--free criterion_mm=1..40 --free judgment_noise_mm=0.3..20",
        "heft fit-responder protocols/paper.toml --figures mine.toml --model simulated:ratio.toml "
-       "--free criterion_mm=1..40 --free criterion_mm.spread=0.1..1 --save fitted.toml"});
-  command.add_option("PROTOCOL", &options->protocol, "a protocol file").required();
-  command
-      .add_option("--figures", &options->figures,
-                  "FILE.toml: means and SDs over participants that a study reported")
-      .required();
+       "--free criterion_mm=1..40 --free criterion_mm.spread=0.1..1 --save fitted.toml",
+       "heft fit-responder --db heft.db --free criterion_mm=1..40 --free "
+       "judgment_noise_mm=0.3..20"});
+  command.add_option("PROTOCOL", &options->protocol, "a protocol file; with --figures");
+  command.add_option("--figures", &options->figures,
+                     "FILE.toml: means and SDs over participants that a study reported");
+  command.add_option("--db", &options->db,
+                     "a log: the answers of its sorting and comparison trials");
   add_responder(command, options->model,
                 "NAME:FILE, the model and its fixed parameters (default: simulated)");
   command.add_option("--free",
@@ -209,6 +281,12 @@ void add_fit_responder(Command& app) {
   command.add_option("--people", &options->people, "simulated participants, spread over the bounds")
       .shows_default()
       .whole_number(100, 1'000'000);
+  command
+      .add_option("--repeats", &options->repeats,
+                  "with --db: answers of each simulated participant to each stimulus")
+      .shows_default()
+      .whole_number(10, 10'000);
+  add_unverified(command, options->unverified);
   command.add_jobs(options->jobs, "the result does");
   command.add_seed(options->seed, "1");
   command.add_option("--save", &options->save, "FILE.toml: the fitted model");
