@@ -25,6 +25,7 @@ void add_sheet(Command& app);
 void add_show(Command& app);
 void add_simulate(Command& app);
 void add_power(Command& app);
+void add_tune(Command& app);
 void add_fit_responder(Command& app);
 void add_track(Command& app);
 void add_validate(Command& app);

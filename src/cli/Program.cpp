@@ -114,6 +114,7 @@ void add_commands(Command& app) {
   add_simulate(app);
   add_merge(app);
   add_power(app);
+  add_tune(app);
   add_fit_responder(app);
   add_replay(app);
   add_analyse(app);

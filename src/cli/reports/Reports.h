@@ -14,6 +14,7 @@
 #include "base/Error.h"
 #include "experiment/ScreenTexts.h"
 #include "population/Power.h"
+#include "population/Tuning.h"
 #include "record/reader/LogReader.h"
 #include "replay/OfflineResponder.h"
 #include "replay/WhatIf.h"
@@ -94,6 +95,11 @@ std::string as_json(const std::vector<ModelPower>& all);
 
 /// Writes a chart of power and precision against participants. @throws Error as draw_svg()
 void draw_power(const ModelPower& found, const std::string& file);
+
+/// Writes a chart of thresholds against mass. @param best null: none
+/// @throws Error as draw_svg()
+void draw_tuning(const std::vector<TunedTechnique>& all, const TunedTechnique* best,
+                 std::uint64_t seed, const std::string& file);
 
 /// Writes a chart by gnuplot. @param file ends in .svg
 /// @param script_of the script that writes a file of that name
