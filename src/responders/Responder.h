@@ -139,9 +139,9 @@ const ResponderEntry& responder_named(std::string_view name);
 /// the cubes were rearranged.
 inline RandomStream trial_stream(std::uint64_t seed, std::string_view purpose,
                                  const TrialView& trial) {
-  const std::string again =
-      trial.n_reshuffles > 0 ? "/" + std::to_string(trial.n_reshuffles) : std::string();
-  return {seed, std::string(purpose) + again, static_cast<std::uint64_t>(trial.trial_number),
+  std::string stream(purpose);
+  if (trial.n_reshuffles > 0) stream.append("/").append(std::to_string(trial.n_reshuffles));
+  return {seed, stream, static_cast<std::uint64_t>(trial.trial_number),
           static_cast<std::uint64_t>(trial.attempt)};
 }
 
