@@ -84,7 +84,10 @@ std::vector<std::string> groups_of(const CommandDescription& command) {
 std::string usage_of(const CommandDescription& command) {
   std::string usage = command.name + " [OPTIONS]";
   for (const OptionDescription& option : command.options)
-    if (option.by_place) usage += fmt::format(" {}{}", option.names, option.repeats ? "..." : "");
+    if (option.by_place) {
+      const std::string given = option.names + (option.repeats ? "..." : "");
+      usage += option.required ? fmt::format(" {}", given) : fmt::format(" [{}]", given);
+    }
   if (!command.commands.empty()) usage += " COMMAND";
   return usage;
 }

@@ -260,11 +260,10 @@ void add_fit_responder(Command& app) {
   Command command = app.add_command(
       "fit-responder", "which simulated people give a study's figures or a log's answers",
       {"heft fit-responder protocols/paper.toml --figures protocols/examples/paper_figures.toml "
-       "--free criterion_mm=1..40 --free judgment_noise_mm=0.3..20",
-       "heft fit-responder protocols/paper.toml --figures mine.toml --model simulated:ratio.toml "
-       "--free criterion_mm=1..40 --free criterion_mm.spread=0.1..1 --save fitted.toml",
-       "heft fit-responder --db heft.db --free criterion_mm=1..40 --free "
-       "judgment_noise_mm=0.3..20"});
+       "--free criterion_mm=1..40",
+       "heft fit-responder protocols/paper.toml --figures mine.toml --free criterion_mm=1..40 "
+       "--free criterion_mm.spread=0.1..1 --save fitted.toml",
+       "heft fit-responder --db heft.db --free criterion_mm=1..40"});
   command.add_option("PROTOCOL", &options->protocol, "a protocol file; with --figures");
   command.add_option("--figures", &options->figures,
                      "FILE.toml: means and SDs over participants that a study reported");
