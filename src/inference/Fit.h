@@ -70,6 +70,21 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options);
 /// Identifiable: as fit_indecision.
 Fit fit_same_different(const AnswersByLevel& answers, double lapse);
 
+/// The lapse rate where the answers of too few people would have to identify it: a single lapse
+/// must not bend the curve (Wichmann & Hill 2001).
+inline constexpr double fixed_lapse = 0.02;
+
+struct ForcedChoiceFit {
+  FittedParameter threshold;           ///< difference that makes 75 % of the choices correct
+  std::optional<FittedParameter> pse;  ///< levels of both signs have one
+  std::string why;                     ///< there is no threshold; empty: there is
+};
+
+/// Of choices of the reference (first) and the comparison, by their difference, with fixed_lapse.
+/// With levels of both signs the curve rises from 0 to 1: its center is the point of subjective
+/// equality, and its spread the noise. Without, from 1/2: its center is the threshold.
+ForcedChoiceFit fit_forced_choice(const AnswersByLevel& answers);
+
 /// Minimum number of trials: chi-square intervals do not hold for fewer.
 inline constexpr double least_trials_to_fit = 10;
 

@@ -32,9 +32,6 @@ using AnswersByPerson = std::map<std::string, AnswersByLevel>;
 /// With fewer people (except a single one, whose own fit is used) there is no interval.
 inline constexpr int least_people = 5;
 
-/// The lapse rate where the answers of too few people would have to identify it.
-inline constexpr double fixed_lapse = 0.02;
-
 /// A positive figure of a fit; an end that is none is infinite or 0.
 struct MixedFigure {
   double value = 0;

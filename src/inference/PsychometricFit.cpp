@@ -290,4 +290,15 @@ Fit fit_psychometric(const AnswersByLevel& answers, const FitOptions& options) {
   return fit;
 }
 
+ForcedChoiceFit fit_forced_choice(const AnswersByLevel& answers) {
+  const bool both_signs = answers.begin()->first < 0;
+  const Fit fit =
+      fit_psychometric(answers, {.guess = both_signs ? fixed_lapse : 0.5, .lapse = fixed_lapse});
+  if (!both_signs) return {fit.parameter("threshold"), {}, fit.why};
+  FittedParameter threshold = fit.parameter("slope");
+  for (auto* figure : {&threshold.value, &threshold.low, &threshold.high})
+    if (*figure) **figure *= z_75;
+  return {threshold, fit.parameter("threshold"), fit.why};
+}
+
 }  // namespace heft

@@ -34,30 +34,6 @@ const ShareByLevel shares{
         "reference's; 95 % intervals over participants.",
     .hits = "chosen"};
 
-constexpr double lapse_rate = 0.02;  // Wichmann & Hill 2001: a single lapse must not bend the curve
-
-FittedParameter scaled(FittedParameter parameter, double factor) {
-  for (auto* figure : {&parameter.value, &parameter.low, &parameter.high})
-    if (*figure) **figure *= factor;
-  return parameter;
-}
-
-struct Discrimination {
-  FittedParameter threshold;
-  std::optional<FittedParameter> pse;  // levels of both signs have one
-  std::string why;                     // there is none
-};
-
-// With levels of both signs the curve rises from 0 to 1: its center is the point of subjective
-// equality, and its spread the noise. Without, from 1/2: its center is the threshold.
-Discrimination fitted(const AnswersByLevel& answers) {
-  const bool both_signs = answers.begin()->first < 0;
-  const Fit fit =
-      fit_psychometric(answers, {.guess = both_signs ? lapse_rate : 0.5, .lapse = lapse_rate});
-  if (!both_signs) return {fit.parameter("threshold"), {}, fit.why};
-  return {scaled(fit.parameter("slope"), z_75), fit.parameter("threshold"), fit.why};
-}
-
 class ForcedChoiceSection final : public Section {
  public:
   void add(const SessionData& data) override {
@@ -76,7 +52,7 @@ class ForcedChoiceSection final : public Section {
     Estimates all;
     for (const auto& [compared, people] : people_)
       for (const auto& [participant, answers] : people) {
-        const Discrimination found = fitted(answers);
+        const ForcedChoiceFit found = fit_forced_choice(answers);
         const auto put = [&, &its = compared, &name = participant, &given = answers](
                              const Measure& measure, const FittedParameter& parameter) {
           StudyEstimate& own = all.emplace_back(at(measure, its));

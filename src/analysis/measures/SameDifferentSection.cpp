@@ -36,8 +36,6 @@ const ShareByLevel shares{
     .hits = "different",
     .note = "differences of either sign together; at 0 g: false alarms"};
 
-constexpr double lapse_rate = 0.02;  // as in forced choices
-
 class SameDifferentSection final : public Section {
  public:
   void add(const SessionData& data) override {
@@ -112,7 +110,7 @@ class SameDifferentSection final : public Section {
  private:
   static void put_own(Estimates& all, const Compared& compared, const std::string& participant,
                       const AnswersByLevel& answers) {
-    const Fit fit = fit_same_different(answers, lapse_rate);
+    const Fit fit = fit_same_different(answers, fixed_lapse);
     for (const auto& [measure, name] :
          {std::pair(&threshold, "threshold_75_g"), {&criterion, "indecision"}}) {
       StudyEstimate& own = all.emplace_back(
