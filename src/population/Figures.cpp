@@ -22,9 +22,9 @@ std::optional<double> percent_of(const Tally& tally) {
 }
 
 // Keeps what figures need of a session's events.
-class FigureSink final : public EventSink {
+class FigureFold {
  public:
-  void append(const Event& event, const Changes& changes, Durability) override {
+  void add(const Event& event, const Changes& changes) {
     if (event.as<TrialStarted>()) n_choices_ = 0;
     if (const auto* action = event.as<Action>(); action && action->kind == "select") ++n_choices_;
     if (const auto* touch = event.as<CubeTouch>(); touch && touch->max_push_displacement_m) {
@@ -39,9 +39,6 @@ class FigureSink final : public EventSink {
           jnds_g_[reference_g->second].push_back(*estimate.jnd_g);
       }
   }
-  void add_frame(const FrameRow&) override {}
-  void add_info(const std::string&, const std::string&) override {}
-  void flush() override {}
 
   std::optional<double> figure(const FigurePlace& place) const {
     switch (place.kind) {
@@ -145,7 +142,20 @@ std::vector<ReportedFigure> parse_figures(const std::string& text, const std::st
 }
 
 void run_alone(const ResolvedConfig& config, Responder& responder, std::uint64_t seed,
-               EventSink& sink) {
+               std::function<void(const Event&, const Changes&)> each) {
+  class EachEvent final : public EventSink {
+   public:
+    explicit EachEvent(std::function<void(const Event&, const Changes&)> of) : of_(std::move(of)) {}
+    void append(const Event& event, const Changes& changes, Durability) override {
+      of_(event, changes);
+    }
+    void add_frame(const FrameRow&) override {}
+    void add_info(const std::string&, const std::string&) override {}
+    void flush() override {}
+
+   private:
+    std::function<void(const Event&, const Changes&)> of_;
+  } sink(std::move(each));
   const Protocol& protocol = *config->protocol;
   Engine engine(config->protocol, seed);
   engine.apply(Event{0, config->config});
@@ -160,10 +170,11 @@ void run_alone(const ResolvedConfig& config, Responder& responder, std::uint64_t
 std::vector<std::optional<double>> figures_of_one(const ResolvedConfig& config,
                                                   Responder& responder, std::uint64_t seed,
                                                   std::span<const FigurePlace> places) {
-  FigureSink sink;
-  run_alone(config, responder, seed, sink);
+  FigureFold fold;
+  run_alone(config, responder, seed,
+            [&](const Event& event, const Changes& changes) { fold.add(event, changes); });
   std::vector<std::optional<double>> figures;
-  for (const FigurePlace& place : places) figures.push_back(sink.figure(place));
+  for (const FigurePlace& place : places) figures.push_back(fold.figure(place));
   return figures;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -67,8 +68,9 @@ std::vector<ReportedFigure> parse_figures(const std::string& text, const std::st
 
 /// One participant's session without a log.
 /// @param config whose tracker is `surrogate` or `hand`
+/// @param each called with every event and what it changed
 void run_alone(const ResolvedConfig& config, Responder& responder, std::uint64_t seed,
-               EventSink& sink);
+               std::function<void(const Event&, const Changes&)> each);
 
 /// One participant's contribution to each figure, from such a session; none: they have no such
 /// trial, or no estimate.

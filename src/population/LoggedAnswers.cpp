@@ -17,11 +17,9 @@ namespace heft {
 namespace {
 constexpr double n_answers = 3;  // to a stimulus: as many in both tasks
 
-std::string answer_of(const TrialRow& trial) {
-  std::string answer(*trial.outcome);
-  if (trial.choice_correct && trial.plan.level_g.value_or(1) != 0)
-    answer += *trial.choice_correct ? ", correct" : ", wrong";
-  return answer;
+LoggedAnswer answer_of(const TrialRow& trial) {
+  const bool are_equal = trial.plan.level_g == 0;
+  return {*trial.outcome, are_equal ? std::nullopt : trial.choice_correct};
 }
 
 std::set<Stimulus> stimuli_of(const LoggedPeople& logged) {
@@ -112,19 +110,11 @@ Protocol repeated_stimuli(const LoggedPeople& logged, int repeats) {
 
 AnswerCounts answers_of_one(const ResolvedConfig& config, Responder& responder,
                             std::uint64_t seed) {
-  class AnswerSink final : public EventSink {
-   public:
-    void append(const Event&, const Changes& changes, Durability) override {
-      if (changes.trial) add_answer(*changes.trial, counts);
-    }
-    void add_frame(const FrameRow&) override {}
-    void add_info(const std::string&, const std::string&) override {}
-    void flush() override {}
-
-    AnswerCounts counts;
-  } sink;
-  run_alone(config, responder, seed, sink);
-  return std::move(sink.counts);
+  AnswerCounts counts;
+  run_alone(config, responder, seed, [&](const Event&, const Changes& changes) {
+    if (changes.trial) add_answer(*changes.trial, counts);
+  });
+  return counts;
 }
 
 double log_likelihood(const AnswerCounts& logged, const AnswerCounts& simulated) {

@@ -23,9 +23,15 @@ struct Stimulus {
   auto operator<=>(const Stimulus&) const = default;
 };
 
-/// Numbers of each answer to each stimulus. Answers are outcomes; a choice beside a difference also
-/// says whether it was correct.
-using AnswerCounts = std::map<Stimulus, std::map<std::string, int>>;
+struct LoggedAnswer {
+  std::string outcome;
+  std::optional<bool> is_correct;  ///< of a choice between different cubes
+
+  auto operator<=>(const LoggedAnswer&) const = default;
+};
+
+/// Numbers of each answer to each stimulus.
+using AnswerCounts = std::map<Stimulus, std::map<LoggedAnswer, int>>;
 
 /// @return false: not a completed trial of a sorting or comparison block, or practice
 bool add_answer(const TrialRow& trial, AnswerCounts& counts);

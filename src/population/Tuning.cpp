@@ -8,7 +8,6 @@
 #include "base/Parallel.h"
 #include "base/Random.h"
 #include "inference/Fit.h"
-#include "inference/MixedIndecision.h"
 #include "population/LoggedAnswers.h"
 #include "psychophysics/Constant.h"
 #include "responders/ResponderParameters.h"
@@ -20,10 +19,13 @@ namespace {
 // Comparison minus reference, as fractions of the reference.
 constexpr std::array differences{-0.8, -0.4, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6};
 
-std::vector<double> between(double low, double high, int n) {
+// So many numbers, evenly spaced in logarithms, with that many significant digits.
+std::vector<double> between(double low, double high, int n, int digits) {
   std::vector<double> all;
-  for (int i = 0; i < n; ++i)
-    all.push_back(low * std::pow(high / low, n == 1 ? 0.5 : static_cast<double>(i) / (n - 1)));
+  for (int i = 0; i < n; ++i) {
+    const double part = n == 1 ? 0.5 : static_cast<double>(i) / (n - 1);
+    all.push_back(std::stod(fmt::format("{:.{}g}", low * std::pow(high / low, part), digits)));
+  }
   return all;
 }
 
@@ -47,10 +49,8 @@ Protocol protocol_for(const TuningRequest& request, const Technique& technique, 
 AnswersByLevel choices_of(const AnswerCounts& counts) {
   AnswersByLevel choices;
   for (const auto& [stimulus, answers] : counts)
-    for (const auto& [answer, n] : answers) {
-      const bool correct = answer.ends_with("correct");
-      choices[*stimulus.level_g][correct == (*stimulus.level_g > 0) ? 1 : 0] += n;
-    }
+    for (const auto& [answer, n] : answers)
+      choices[*stimulus.level_g][answer.is_correct == (*stimulus.level_g > 0) ? 1 : 0] += n;
   return choices;
 }
 
@@ -66,17 +66,9 @@ ThresholdAtMass threshold_of(const TuningRequest& request, const Technique& tech
     median.parameters.push_back({"participant_spread", 0.0, {}});
   const auto person = config->model.entry->make(median);
   const AnswersByLevel choices = choices_of(answers_of_one(config, *person, seed));
-  const Fit fit = fit_psychometric(choices, {.guess = fixed_lapse, .lapse = fixed_lapse});
-  ThresholdAtMass found{mass_g, {}, {}, {}, fit.why};
-  if (!fit.identifiable()) return found;
-  const FittedParameter& spread = fit.parameter("slope");
-  const auto threshold = [](const std::optional<double>& of) {
-    return of ? std::optional(z_75 * *of) : std::nullopt;
-  };
-  found.threshold_g = threshold(spread.value);
-  found.low_g = threshold(spread.low);
-  found.high_g = threshold(spread.high);
-  return found;
+  const ForcedChoiceFit fit = fit_forced_choice(choices);
+  if (!fit.why.empty()) return {mass_g, {}, {}, {}, fit.why};
+  return {mass_g, fit.threshold.value, fit.threshold.low, fit.threshold.high, ""};
 }
 }  // namespace
 
@@ -92,19 +84,17 @@ std::optional<double> TunedTechnique::worst() const {
 std::vector<Technique> springs_between(double low_n_per_m, double high_n_per_m, int n,
                                        const Coupling& others) {
   std::vector<Technique> all;
-  for (const double stiffness : between(low_n_per_m, high_n_per_m, n)) {
+  for (const double stiffness : between(low_n_per_m, high_n_per_m, n, 2)) {
     Coupling coupling = others;
     coupling.decoupled = true;
-    coupling.stiffness_n_per_m = std::stod(fmt::format("{:.2g}", stiffness));
+    coupling.stiffness_n_per_m = stiffness;
     all.push_back({fmt::format("spring {:g} N/m", coupling.stiffness_n_per_m), coupling});
   }
   return all;
 }
 
 std::vector<double> masses_between(double low_g, double high_g, int n) {
-  std::vector<double> all = between(low_g, high_g, n);
-  for (double& mass_g : all) mass_g = std::stod(fmt::format("{:.3g}", mass_g));
-  return all;
+  return between(low_g, high_g, n, 3);
 }
 
 std::optional<std::vector<TunedTechnique>> thresholds_of(

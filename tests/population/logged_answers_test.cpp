@@ -41,10 +41,11 @@ TEST(LoggedAnswers, AreCountedByWhatWasShown) {
   EXPECT_TRUE(add_answer(trial("difference", {}, 0), counts));
   ASSERT_EQ(counts.size(), 2u);
   const auto& at_50 = counts.at({"b", "C2", 200.0, 50.0});
-  EXPECT_THAT(at_50, UnorderedElementsAre(std::pair("difference, correct", 1),
-                                          std::pair("difference, wrong", 1),
-                                          std::pair("no_difference", 2)));
-  EXPECT_THAT(counts.at({"b", "C2", 200.0, 0.0}), UnorderedElementsAre(std::pair("difference", 1)));
+  EXPECT_THAT(at_50, UnorderedElementsAre(std::pair(LoggedAnswer{"difference", true}, 1),
+                                          std::pair(LoggedAnswer{"difference", false}, 1),
+                                          std::pair(LoggedAnswer{"no_difference", {}}, 2)));
+  EXPECT_THAT(counts.at({"b", "C2", 200.0, 0.0}),
+              UnorderedElementsAre(std::pair(LoggedAnswer{"difference", {}}, 1)));
 }
 
 TEST(LoggedAnswers, WhatIsNoAnswerIsLeftOut) {
@@ -60,8 +61,10 @@ TEST(LoggedAnswers, WhatIsNoAnswerIsLeftOut) {
 // By hand: 2 of 4 drawn answers and 1 of 4, each with half an answer more, of 4 + 3/2.
 TEST(LoggedAnswers, LikelihoodIsOfTheSharesThatWereDrawn) {
   const Stimulus shown{"b", "C2", 200, 50};
-  const AnswerCounts logged{{shown, {{"same", 3}, {"different", 1}, {"never", 1}}}};
-  const AnswerCounts drawn{{shown, {{"same", 2}, {"different", 1}, {"other", 1}}}};
+  const AnswerCounts logged{
+      {shown, {{{"same", {}}, 3}, {{"different", {}}, 1}, {{"never", {}}, 1}}}};
+  const AnswerCounts drawn{
+      {shown, {{{"same", {}}, 2}, {{"different", {}}, 1}, {{"other", {}}, 1}}}};
   EXPECT_NEAR(log_likelihood(logged, drawn),
               3 * std::log(2.5 / 5.5) + std::log(1.5 / 5.5) + std::log(0.5 / 5.5), 1e-12);
 }

@@ -1,7 +1,7 @@
 // heft tune: the spring, or another technique, for a lab's range of masses.
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -156,7 +156,8 @@ void tune(const TuneOptions& options) {
   }
   if (!options.chart.empty()) draw_tuning(all, best, seed, options.chart);
   if (options.json) return fmt::print("{}", as_json(all, best, whole, seed));
-  const bool is_declared = best && best - all.data() >= n_springs;
+  const bool is_declared = best && std::ranges::count(request.protocol.techniques,
+                                                      best->technique.name, &Technique::name);
   print_tuning(all, best, whole, is_declared);
   if (!options.chart.empty()) print("chart: {}\n", options.chart);
 }
