@@ -70,16 +70,17 @@ class WorkFolder {
 };
 
 // The studies of one model. Of one seed they have the same people at every level.
-Power power_of_model(const PowerOptions& options, const WhoAnswers& model, const std::string& level,
-                     const std::vector<int>& participants, std::uint64_t seed) {
+Power power_of_model(const PowerOptions& options, const Protocol& protocol, const WhoAnswers& model,
+                     const std::string& level, const std::vector<int>& participants,
+                     std::uint64_t seed) {
   SessionOptions given;
   given.responder = model;
   given.tracker = Plug{level};
   given.settings = options.set;
   given.protocol_file = options.protocol;
   const WorkFolder folder;
-  const PowerRequest request{resolve(given, load_protocol(options.protocol, options.set), seed),
-                             participants, options.studies, options.jobs, folder.path()};
+  const PowerRequest request{resolve(given, protocol, seed), participants, options.studies,
+                             options.jobs, folder.path()};
   ProgressBar bar(fmt::format("{} ({})", to_text(model), level));
   const auto progress = [&](double done) {
     bar.update(done, fmt::format("{:.0f} of {} studies", done * options.studies, options.studies));
@@ -92,16 +93,17 @@ Power power_of_model(const PowerOptions& options, const WhoAnswers& model, const
 
 void print_powers(const PowerOptions& options) {
   const std::uint64_t seed = options.seed ? *options.seed : fresh_seed();
-  const std::string protocol = load_protocol(options.protocol, options.set).name;
+  const Protocol protocol = load_protocol(options.protocol, options.set);
   std::vector<ModelPower> all;
   for (const WhoAnswers& model : options.models) {
-    all.push_back({protocol, to_text(model), seed, options.level,
-                   power_of_model(options, model, options.level, options.participants, seed),
-                   std::nullopt});
+    all.push_back(
+        {protocol.name, to_text(model), seed, options.level,
+         power_of_model(options, protocol, model, options.level, options.participants, seed),
+         std::nullopt});
     if (options.confirm)
-      all.back().whole =
-          power_of_model(options, model, "hand", {static_cast<int>(*options.confirm)}, seed)
-              .sizes.front();
+      all.back().whole = power_of_model(options, protocol, model, "hand",
+                                        {static_cast<int>(*options.confirm)}, seed)
+                             .sizes.front();
   }
   if (!options.chart.empty()) draw_power(all.front(), options.chart);
   if (options.json) return fmt::print("{}", as_json(all));
