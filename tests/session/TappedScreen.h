@@ -2,6 +2,7 @@
 // place and the session is the program's own, but for the window system and the drawing.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -52,6 +53,11 @@ class TappedScreen final : public ArView {
   }
 
   const Page& page() const { return touched_.page(); }
+  /// Null: the page has none of that name.
+  const Control* control(const std::string& name) const {
+    const auto found = std::ranges::find(page().controls, name, &Control::name);
+    return found == page().controls.end() ? nullptr : &*found;
+  }
   const ScreenState& screen() const { return screen_; }
 
   const Measures measures;

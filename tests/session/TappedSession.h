@@ -1,6 +1,9 @@
 // A person's whole session on pages under made-up fingers, with the rules of onset in force.
 #pragma once
 
+#include <array>
+
+#include "base/Random.h"
 #include "session/Protocols.h"
 #include "session/Recorded.h"
 #include "session/Runner.h"
@@ -9,6 +12,27 @@
 namespace heft::testing {
 
 inline constexpr double gap_s = 0.6, min_answer_s = 0.5;
+
+/// Of the tests that tap in several windows.
+inline const std::array tapped_windows{Measures{1024, 600}, Measures{1280, 800, 1.3f},
+                                       Measures{1920, 1080, 0.8f}, Measures{800, 480}};
+
+/// A tap at a moment soon, in the middle of a control or part of the way along it.
+inline Tap tap_on(const Control& control, RandomStream& random, double along = 0.5) {
+  const double down_s = made_up_s + 0.2 + 0.4 * random.uniform();
+  const Rect& area = control.area;
+  return {down_s, down_s + 0.05, area.x + static_cast<float>(along) * area.width,
+          area.y + area.height / 2};
+}
+
+/// One block of trials, without consent and other pages.
+inline Protocol protocol_alone(Block block) {
+  Protocol protocol = small_protocol();
+  protocol.display_rate_hz = 15;
+  protocol.screens = {"en", false, false, false};
+  protocol.blocks = {std::move(block)};
+  return protocol;
+}
 
 struct TappedSession {
   TappedSession(Protocol made, ScreenTexts read, TappedScreen::NextTap next_tap,

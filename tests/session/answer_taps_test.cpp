@@ -1,5 +1,6 @@
 // Judgments and same-different answers of people who know what they want to answer: what they
 // tapped is what is logged, in both shipped languages, several sizes and for either hand.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "SourceFolder.h"
@@ -12,7 +13,6 @@
 namespace heft {
 namespace {
 
-using testing::made_up_s;
 using testing::Tap;
 using testing::TappedScreen;
 using testing::TappedSession;
@@ -39,31 +39,22 @@ class Judge {
   std::optional<Tap> operator()(const TappedScreen& screen) {
     const Control* wanted = wanted_on(screen);
     if (!wanted || !wanted->enabled) return std::nullopt;
-    const double down_s = made_up_s + 0.2 + 0.4 * random_.uniform();
-    const Rect& area = wanted->area;
     const double along = wanted->slide ? 0.998 * meant_[screen.screen().trial_number] / 100 : 0.5;
-    return Tap{down_s, down_s + 0.05, area.x + static_cast<float>(along) * area.width,
-               area.y + area.height / 2};
+    return testing::tap_on(*wanted, random_, along);
   }
 
   const std::map<int, double>& meant() const { return meant_; }
 
  private:
-  static const Control* named(const TappedScreen& screen, const std::string& name) {
-    for (const Control& control : screen.page().controls)
-      if (control.name == name) return &control;
-    return nullptr;
-  }
-
   const Control* wanted_on(const TappedScreen& screen) {
     const ScreenState& state = screen.screen();
     if (state.screen != Screen::trial)
-      return named(screen, named(screen, "more") ? "more" : "next");
+      return screen.control(screen.control("more") ? "more" : "next");
     if (state.faded || !state.can_answer) return nullptr;
     const auto [meant, is_new] = meant_.try_emplace(state.trial_number);
     if (is_new) meant->second = any();
-    const Control* answer = named(screen, control_for(meant->second));
-    const Control* confirm = named(screen, "judge");
+    const Control* answer = screen.control(control_for(meant->second));
+    const Control* confirm = screen.control("judge");
     const bool is_shown =
         answer && (answer->slide ? answer->slide->fraction.has_value()
                                  : answer->chosen || asked_.kind == QuestionKind::number);
@@ -88,7 +79,7 @@ class Judge {
   std::map<int, double> meant_;
 };
 
-Protocol judgments_of(const FormQuestion& asked) {
+Judgment::Block judgments_of(const FormQuestion& asked) {
   Judgment::Block block;
   block.name = "judgment";
   block.masses_g = {15, 100, 200, 400, 800};
@@ -96,16 +87,10 @@ Protocol judgments_of(const FormQuestion& asked) {
   block.trials = {{"C2", 5}};
   block.asks = "mine.asked";
   block.question = asked;
-  Protocol protocol = testing::small_protocol();
-  protocol.display_rate_hz = 15;
-  protocol.screens = {"en", false, false, false};
-  protocol.blocks = {block};
-  return protocol;
+  return block;
 }
 
 TEST(JudgmentTaps, WhatWasTappedIsWhatIsLogged) {
-  const std::array<Measures, 4> windows{
-      Measures{1024, 600}, {1280, 800, 1.3f}, {1920, 1080, 0.8f}, {800, 480}};
   std::uint64_t seed = 0;
   for (const QuestionKind kind :
        {QuestionKind::choice, QuestionKind::likert, QuestionKind::slider, QuestionKind::number})
@@ -115,8 +100,8 @@ TEST(JudgmentTaps, WhatWasTappedIsWhatIsLogged) {
       Judge judge(seed, asked);
       const std::string texts =
           fmt::format("{}/protocols/texts/{}.toml", source_folder(), language);
-      TappedSession session(judgments_of(asked), load_texts(texts), std::ref(judge),
-                            windows[seed % 4], seed % 3 == 0);
+      TappedSession session(testing::protocol_alone(judgments_of(asked)), load_texts(texts),
+                            std::ref(judge), testing::tapped_windows[seed % 4], seed % 3 == 0);
       ASSERT_EQ(session.run(), RunEnd::finished);
       std::map<int, double> logged;
       for (const RecordedEntry& entry : session.sink.entries())
@@ -150,9 +135,7 @@ class Comparer {
                     texts_.at("trial_comparison", meant_[state.trial_number] ? "different" : "same")
               : control.name == "next" || control.name == "more";
       if (!is_meant || !control.enabled) continue;
-      const double down_s = made_up_s + 0.2 + 0.4 * random_.uniform();
-      return Tap{down_s, down_s + 0.05, control.area.x + control.area.width / 2,
-                 control.area.y + control.area.height / 2};
+      return testing::tap_on(control, random_);
     }
     return std::nullopt;
   }
@@ -171,14 +154,12 @@ TEST(SameDifferentTaps, WhatWasTappedIsWhatIsLogged) {
   block.answers = ComparisonAnswers::same_different;
   block.staircases = {
       {200, {"c", ConstantConfig{.levels = {-100, 0, 50, 100, 200}, .n_per_level = 10}}}};
-  Protocol protocol = judgments_of({});
-  protocol.blocks = {block};
   for (const char* language : {"en", "fr"}) {
     SCOPED_TRACE(language);
     const ScreenTexts texts =
         load_texts(fmt::format("{}/protocols/texts/{}.toml", source_folder(), language));
     Comparer comparer(7, texts);
-    TappedSession session(protocol, texts, std::ref(comparer));
+    TappedSession session(testing::protocol_alone(block), texts, std::ref(comparer));
     ASSERT_EQ(session.run(), RunEnd::finished);
     std::map<int, bool> logged;
     for (const RecordedEntry& entry : session.sink.entries())

@@ -16,7 +16,6 @@
 namespace heft {
 namespace {
 
-using testing::made_up_s;
 using testing::Tap;
 using testing::TappedScreen;
 using testing::TappedSession;
@@ -27,14 +26,9 @@ class Adjuster {
   explicit Adjuster(std::uint64_t seed) : random_(seed, "adjuster") {}
 
   std::optional<Tap> operator()(const TappedScreen& screen) {
-    const std::string name = wanted_on(screen);
-    for (const Control& control : screen.page().controls)
-      if (control.name == name && control.enabled) {
-        const double down_s = made_up_s + 0.2 + 0.4 * random_.uniform();
-        return Tap{down_s, down_s + 0.05, control.area.x + control.area.width / 2,
-                   control.area.y + control.area.height / 2};
-      }
-    return std::nullopt;
+    const Control* wanted = screen.control(wanted_on(screen));
+    if (!wanted || !wanted->enabled) return std::nullopt;
+    return testing::tap_on(*wanted, random_);
   }
 
   /// The steps of each trial, g.
@@ -43,10 +37,7 @@ class Adjuster {
  private:
   std::string wanted_on(const TappedScreen& screen) {
     const ScreenState& state = screen.screen();
-    if (state.screen != Screen::trial) {
-      const bool has_more = std::ranges::count(screen.page().controls, "more", &Control::name) > 0;
-      return has_more ? "more" : "next";
-    }
+    if (state.screen != Screen::trial) return screen.control("more") ? "more" : "next";
     if (state.faded || !state.can_answer) return "";
     const auto [found, is_new] = meant.try_emplace(state.trial_number);
     if (is_new) n_wanted_ = random_.below(5);
@@ -68,23 +59,17 @@ class Adjuster {
   std::size_t n_wanted_ = 0, wanted_ = 0;
 };
 
-Protocol adjustments() {
+Adjustment::Block adjustments() {
   Adjustment::Block block;
   block.name = "adjustment";
   block.reference_g.values = {100, 200};
   block.start_g = {20, 500};
   block.steps_g = {50, 10};
   block.trials = {{"C2", 25}};
-  Protocol protocol = testing::small_protocol();
-  protocol.display_rate_hz = 15;
-  protocol.screens = {"en", false, false, false};
-  protocol.blocks = {block};
-  return protocol;
+  return block;
 }
 
 TEST(AdjustmentTaps, WhatWasTappedIsWhatIsLogged) {
-  const std::array<Measures, 4> windows{
-      Measures{1024, 600}, {1280, 800, 1.3f}, {1920, 1080, 0.8f}, {800, 480}};
   std::uint64_t seed = 0;
   for (const char* language : {"en", "fr"})
     for (const bool left_handed : {false, true}) {
@@ -92,8 +77,8 @@ TEST(AdjustmentTaps, WhatWasTappedIsWhatIsLogged) {
       Adjuster adjuster(seed);
       const std::string texts =
           fmt::format("{}/protocols/texts/{}.toml", source_folder(), language);
-      TappedSession session(adjustments(), load_texts(texts), std::ref(adjuster), windows[seed % 4],
-                            left_handed);
+      TappedSession session(testing::protocol_alone(adjustments()), load_texts(texts),
+                            std::ref(adjuster), testing::tapped_windows[seed % 4], left_handed);
       ASSERT_EQ(session.run(), RunEnd::finished);
       std::map<int, double> set_g;
       std::map<int, std::vector<double>> logged;
@@ -122,7 +107,8 @@ TEST(AdjustmentTaps, WhatWasTappedIsWhatIsLogged) {
 // is clear of their places.
 TEST(AdjustmentTaps, CubesWithANewMassAppearClearOfTheEffector) {
   Adjuster adjuster(9);
-  TappedSession session(adjustments(), load_texts(source_folder() + "/protocols/texts/en.toml"),
+  TappedSession session(testing::protocol_alone(adjustments()),
+                        load_texts(source_folder() + "/protocols/texts/en.toml"),
                         std::ref(adjuster));
   ASSERT_EQ(session.run(), RunEnd::finished);
   int n_without_cubes = 0, n_replaced = 0;

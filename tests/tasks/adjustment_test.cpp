@@ -13,6 +13,7 @@
 #include "base/files/TextFile.h"
 #include "replay/Replay.h"
 #include "replay/StoredSession.h"
+#include "tasks/Plans.h"
 #include "tasks/SessionPlan.h"
 
 namespace heft {
@@ -23,6 +24,7 @@ using ::testing::Ge;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Le;
+using testing::plans;
 using testing::StoredSession;
 
 Adjustment::Block block_of(std::vector<double> references_g, int trials = 2) {
@@ -33,17 +35,6 @@ Adjustment::Block block_of(std::vector<double> references_g, int trials = 2) {
   block.steps_g = {50, 10};
   block.trials = {{"C2", trials}};
   return block;
-}
-
-std::vector<TrialPlan> plans(const Adjustment::Block& block, std::uint64_t seed, int attempt = 1) {
-  Adjustment::Run run(block, seed);
-  std::vector<TrialPlan> plans;
-  while (!run.finished()) {
-    plans.push_back(run.plan({seed, static_cast<int>(plans.size()) + 1, attempt}));
-    Changes changes;
-    run.complete({}, changes);
-  }
-  return plans;
 }
 
 double comparison_g(const TrialPlan& plan) {

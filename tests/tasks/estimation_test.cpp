@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "tasks/Plans.h"
 #include "tasks/SessionPlan.h"
 
 namespace heft {
@@ -12,6 +13,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::plans;
 
 Estimation::Block block_of_numbers() {
   Estimation::Block block;
@@ -25,17 +27,6 @@ Estimation::Block block_of_numbers() {
 
 Action estimate(double value) {
   return {"estimate", {}, {}, value};
-}
-
-std::vector<TrialPlan> plans(const Estimation::Block& block, std::uint64_t seed) {
-  Estimation::Run run(block, seed);
-  std::vector<TrialPlan> plans;
-  while (!run.finished()) {
-    plans.push_back(run.plan({seed, static_cast<int>(plans.size()) + 1, 1}));
-    Changes changes;
-    run.complete({}, changes);
-  }
-  return plans;
 }
 
 TEST(Estimation, TrialsAreBalancedInSeededOrder) {
@@ -170,7 +161,7 @@ TEST(Estimation, KeysAreChecked) {
   EXPECT_THAT(keys(block), Contains("modulus"));
   block = block_of_numbers();
   block.scale = "slider";
-  EXPECT_THAT(keys(block), testing::UnorderedElementsAre("low", "high"));
+  EXPECT_THAT(keys(block), ::testing::UnorderedElementsAre("low", "high"));
   block = block_of_numbers();
   block.trials = {{"C1", 0}};
   EXPECT_THAT(keys(block), Contains("trials"));

@@ -6,6 +6,7 @@
 
 #include <map>
 
+#include "tasks/Plans.h"
 #include "tasks/SessionPlan.h"
 
 namespace heft {
@@ -14,6 +15,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::plans;
 using ::testing::SizeIs;
 using ::testing::UnorderedElementsAre;
 using Masses = std::vector<double>;
@@ -59,17 +61,6 @@ std::vector<Masses> masses_of(const std::vector<CubeSet>& sets) {
   std::vector<Masses> all;
   for (const CubeSet& one : sets) all.push_back(one.masses_g);
   return all;
-}
-
-std::vector<TrialPlan> plans(const Judgment::Block& block, std::uint64_t seed, int attempt = 1) {
-  Judgment::Run run(block, seed);
-  std::vector<TrialPlan> plans;
-  while (!run.finished()) {
-    plans.push_back(run.plan({seed, static_cast<int>(plans.size()) + 1, attempt}));
-    Changes changes;
-    run.complete({}, changes);
-  }
-  return plans;
 }
 
 Action judge(double value) {

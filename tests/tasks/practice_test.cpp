@@ -52,11 +52,11 @@ class Answered {
 
   /// The next trial of a comparison, answered with the heavier cube, or with the lighter one.
   TrialRow choose(bool heavier) {
-    tell(TrialStarted{});
-    tell(CubesShown{});
+    apply(TrialStarted{});
+    apply(CubesShown{});
     const std::vector<double>& masses_g = engine_->next().plan->masses_g;
     const bool right = masses_g[1] > masses_g[0];
-    return *tell(Action{"select", right == heavier ? 2 : 1}).trial;
+    return *apply(Action{"select", right == heavier ? 2 : 1}).trial;
   }
   /// Trials until practice ends, with these answers in turn; the last of them for ever.
   std::vector<TrialRow> practice(std::vector<bool> heavier) {
@@ -65,7 +65,7 @@ class Answered {
       rows.push_back(choose(heavier[std::min(i, heavier.size() - 1)]));
     return rows;
   }
-  Changes tell(EventPayload what) { return engine_->apply({++t_s_, std::move(what)}); }
+  Changes apply(EventPayload what) { return engine_->apply({++t_s_, std::move(what)}); }
   const Engine& engine() const { return *engine_; }
 
  private:
@@ -112,13 +112,13 @@ TEST(Practice, LeavesTheStaircaseAsItWas) {
     std::vector<double> levels_g;
     std::vector<EstimateRow> estimates;
     for (int i = 0; session.engine().next().kind == Next::Kind::trial; ++i) {
-      session.tell(TrialStarted{});
-      session.tell(CubesShown{});
+      session.apply(TrialStarted{});
+      session.apply(CubesShown{});
       const TrialPlan plan = *session.engine().next().plan;
       EXPECT_EQ(plan.staircase, "200g");
       levels_g.push_back(*plan.level_g);
       const Action answer = i % 3 == 2 ? Action{"no_difference"} : Action{"select", 1};
-      for (const EstimateRow& one : session.tell(answer).estimates) estimates.push_back(one);
+      for (const EstimateRow& one : session.apply(answer).estimates) estimates.push_back(one);
     }
     EXPECT_FALSE(estimates.empty());
     return std::tuple(levels_g, estimates.at(0).jnd_g, estimates.at(0).n_trials);
@@ -134,11 +134,11 @@ TEST(Practice, FeedbackIsGivenBeforeTheNextTrialOfPracticeOnly) {
   EXPECT_EQ(feedback(), false);
   session.choose(true);
   EXPECT_EQ(feedback(), true);
-  session.tell(TrialStarted{});
+  session.apply(TrialStarted{});
   EXPECT_FALSE(feedback()) << "of the open trial";
-  session.tell(CubesShown{});
+  session.apply(CubesShown{});
   const std::vector<double> masses_g = session.engine().next().plan->masses_g;
-  session.tell(Action{"select", masses_g[1] > masses_g[0] ? 2 : 1});
+  session.apply(Action{"select", masses_g[1] > masses_g[0] ? 2 : 1});
   EXPECT_FALSE(session.engine().next().plan->is_practice) << "two in a row";
   EXPECT_EQ(feedback(), true);
   session.choose(true);
@@ -153,7 +153,7 @@ TEST(Practice, AVetoedAnswerDoesNotCount) {
   session.choose(true);
   const TrialRow second = session.choose(true);
   EXPECT_FALSE(session.engine().next().plan->is_practice);
-  session.tell(AnswerVetoed{"by mistake"});
+  session.apply(AnswerVetoed{"by mistake"});
   EXPECT_FALSE(session.engine().screen().feedback);
   const TrialPlan again = *session.engine().next().plan;
   EXPECT_TRUE(again.is_practice);
