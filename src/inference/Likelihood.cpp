@@ -66,11 +66,18 @@ Parameters Likelihood::step_against(const Parameters& slope, const Parameters& a
   return solver.eigenvectors() * along;
 }
 
-bool Likelihood::climb_by_newton(Maximum& best, Eigen::Index held, double enough) {
+Parameters Likelihood::within_reach(Parameters step) const {
+  double part = 1;
+  for (Eigen::Index i = 0; i < n_; ++i)
+    part = std::min(part, bounds(i).longest_step / std::abs(step[i]));
+  return part < 1 ? Parameters(part * step) : step;
+}
+
+bool Likelihood::climb_by_newton(Maximum& best, Eigen::Index held) {
   best.log_likelihood = function_(best.at, &derivatives_);
   // Remaining gain in log likelihood, and with very many trials the rounding error of the sum.
   const double of_digits = std::abs(best.log_likelihood) * std::numeric_limits<double>::epsilon();
-  const double good_enough = std::max({held < 0 ? 1e-13 : 1e-10, of_digits, enough});
+  const double good_enough = std::max(held < 0 ? 1e-13 : 1e-10, of_digits);
   for (int i = 0; i < 100; ++i) {
     const Parameters step = step_against(derivatives_.gradient, best.at, held);
     const double to_gain = step.dot(derivatives_.gradient);
@@ -89,9 +96,29 @@ bool Likelihood::climb_by_newton(Maximum& best, Eigen::Index held, double enough
   return false;
 }
 
-Maximum Likelihood::climb(Parameters from, Eigen::Index held, double enough) {
+Maximum Likelihood::climb(Parameters from, Eigen::Index held) {
   Maximum best{within_bounds(std::move(from)), 0};
-  return climb_by_newton(best, held, enough) ? best : climb_by_nlopt(best, held);
+  return climb_by_newton(best, held) ? best : climb_by_nlopt(best, held);
+}
+
+Maximum Likelihood::climb_by_score(Parameters from, Eigen::Index held, Accuracy accuracy) {
+  Maximum here{within_bounds(std::move(from)), 0};
+  here.log_likelihood = function_(here.at, &derivatives_);
+  for (int i = 0; i < 100; ++i) {
+    const Parameters step = within_reach(step_against(derivatives_.gradient, here.at, held));
+    if (!(step.dot(derivatives_.gradient) > accuracy.gain)) return here;
+    const double low = here.log_likelihood - accuracy.value;
+    // Whole steps may go to and fro for ever.
+    Maximum there = nothing();
+    for (double length = i < 10 ? 1 : 0.5; length > 1e-3 && !(there.log_likelihood > low);
+         length /= 2) {
+      there.at = within_bounds(here.at + length * step);
+      there.log_likelihood = function_(there.at, &derivatives_);
+    }
+    if (!(there.log_likelihood > low)) break;
+    here = there;
+  }
+  return here;
 }
 
 // Sequential quadratic programming (Kraft 1994). It may stop for lack of digits, even at no number:

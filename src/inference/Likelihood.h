@@ -22,6 +22,11 @@ inline const Maximum& likelier(const Maximum& first, const Maximum& second) {
   return second.log_likelihood > first.log_likelihood ? second : first;
 }
 
+struct Accuracy {
+  double gain = 0;   ///< of a maximum: Newton's method expects to gain no more
+  double value = 0;  ///< by which values at different places may be wrong
+};
+
 /// A log likelihood within bounds, and the ways up on it. What it refers to must outlive it.
 class Likelihood {
  public:
@@ -42,8 +47,10 @@ class Likelihood {
   bool is_one_hill() const { return starts_.size() == 1; }
   Maximum maximum();
   /// To the nearest maximum; one parameter may be held.
-  /// @param enough so near that Newton's method expects to gain no more; 0: as near as digits go
-  Maximum climb(Parameters from, Eigen::Index held = -1, double enough = 0);
+  Maximum climb(Parameters from, Eigen::Index held = -1);
+  /// The same where values at different places are inexact: to where the derivatives say that the
+  /// maximum is.
+  Maximum climb_by_score(Parameters from, Eigen::Index held, Accuracy accuracy);
   /// With one parameter held. @param from where to start for the others
   Maximum profile(Eigen::Index held, double held_value, Parameters from);
   /// The likelier of where two starts lead.
@@ -57,9 +64,10 @@ class Likelihood {
 
  private:
   /// @return whether it got there
-  bool climb_by_newton(Maximum& from, Eigen::Index held, double enough);
+  bool climb_by_newton(Maximum& from, Eigen::Index held);
   Maximum climb_by_nlopt(const Maximum& from, Eigen::Index held);
   Parameters step_against(const Parameters& slope, const Parameters& at, Eigen::Index held) const;
+  Parameters within_reach(Parameters step) const;
   bool can_climb_along(Eigen::Index i, const Parameters& at) const;
   Parameters within_bounds(Parameters at) const;
   Parameters in_proportion(Parameters start, Eigen::Index held, double held_value) const;

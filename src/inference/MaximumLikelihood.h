@@ -43,6 +43,8 @@ struct ParameterBounds {
   /// Of those in proportion the ratios say where the curves lie: a start moves along with one that
   /// is held elsewhere.
   bool in_proportion = false;
+  /// Of climb_by_score(): farther away the derivatives of here say little.
+  double longest_step = infinity;
   bool fixed() const { return low == high; }
 };
 

@@ -42,25 +42,37 @@ constexpr std::size_t n_places = 56, place_of_0 = 20;
 double sensitivity_at(double place) {
   return 0.5 * std::sinh(0.2 * (place - static_cast<double>(place_of_0)));
 }
+double place_of(double sensitivity) {
+  return static_cast<double>(place_of_0) + std::asinh(sensitivity / 0.5) / 0.2;
+}
 using Profile = std::array<double, n_places>;
 
 // One person's log likelihood of sensitivities, as in a population that has only this one, whatever
-// the criterion of others with it.
+// the criterion of others with it. From the population's own outwards, until it is far less.
 Profile profile_of(const AnswersByLevel& by_level, double largest_g, Parameters population) {
   constexpr double none = -9;  // log of a sensitivity that is as good as 0
+  constexpr double far_less = 15;
+  const double of_population = std::exp(population[mean_log_sensitivity]);
   population[arctanh_correlation] = 0;
   population[log_sd_sensitivity] = std::log(1e-3);
-  Profile profile{};
+  Profile profile;
+  profile.fill(-infinity);
+  double most = -infinity;
+  // @return whether it is not far less
   const auto put = [&](PersonIntegral& person, std::size_t place) {
     const double s = std::abs(sensitivity_at(static_cast<double>(place)));
     population[mean_log_sensitivity] = s > 0 ? std::log(s) : none;
     person.center(population);
     profile[place] = person.log_likelihood(population, nullptr);
+    most = std::max(most, profile[place]);
+    return profile[place] > most - far_less;
   };
   PersonIntegral upwards(on_scale(by_level, largest_g));
   PersonIntegral downwards(on_scale(by_level, largest_g, true));
-  for (std::size_t place = place_of_0; place < n_places; ++place) put(upwards, place);
-  for (std::size_t place = place_of_0; place-- > 0;) put(downwards, place);
+  const auto start = static_cast<std::size_t>(std::min(place_of(of_population), n_places - 1.0));
+  for (std::size_t place = start; place < n_places && put(upwards, place);) ++place;
+  for (std::size_t place = start; place-- > 0;)
+    if (!put(place < place_of_0 ? downwards : upwards, place)) break;
   return profile;
 }
 

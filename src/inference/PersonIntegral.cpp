@@ -24,26 +24,26 @@ QuadratureRule normal_quadrature(Eigen::Index n) {
   return {solver.eigenvalues(), solver.eigenvectors().row(0).array().square()};
 }
 
-// Nodes in three dimensions without those of the least weight, and log(weight / standard normal
-// density), so that a sum over exp(log_weight) f(z) is the integral of f.
-struct StandardNode {
-  Eigen::Vector3d z;
-  double log_weight = 0;
+// Nodes in three dimensions, and log(weight / standard normal density), so that a sum over
+// exp(log_weight) f(z) is the integral of f. None is left out, however little it weighs: where
+// answers say little, second derivatives are small differences of large sums.
+struct StandardNodes {
+  Eigen::Matrix3Xd z;
+  Eigen::ArrayXd log_weight;
 };
 
-const std::vector<StandardNode>& standard_nodes() {
-  static const std::vector<StandardNode> nodes = [] {
-    constexpr double least_weight = 2e-5;
-    const auto [at, weight] = normal_quadrature(5);
-    std::vector<StandardNode> all;
-    for (Eigen::Index i = 0; i < at.size(); ++i)
-      for (Eigen::Index j = 0; j < at.size(); ++j)
-        for (Eigen::Index k = 0; k < at.size(); ++k) {
-          const Eigen::Vector3d z(at[i], at[j], at[k]);
-          if (const double product = weight[i] * weight[j] * weight[k]; product > least_weight)
-            all.push_back({z, std::log(product) + z.squaredNorm() / 2 +
-                                  1.5 * std::log(2 * std::numbers::pi)});
-        }
+const StandardNodes& standard_nodes() {
+  static const StandardNodes nodes = [] {
+    constexpr Eigen::Index n = 5;
+    const auto [at, weight] = normal_quadrature(n);
+    StandardNodes all{Eigen::Matrix3Xd(3, n * n * n), Eigen::ArrayXd(n * n * n)};
+    for (Eigen::Index node = 0; node < n * n * n; ++node) {
+      const Eigen::Index i = node / (n * n), j = node / n % n, k = node % n;
+      all.z.col(node) << at[i], at[j], at[k];
+      all.log_weight[node] = std::log(weight[i] * weight[j] * weight[k]) +
+                             all.z.col(node).squaredNorm() / 2 +
+                             1.5 * std::log(2 * std::numbers::pi);
+    }
     return all;
   }();
   return nodes;
@@ -62,12 +62,15 @@ struct Distribution {
         log_density_at_mean(std::log(kappa) / 2 - std::log(sd_s * sd_t * sd_b) -
                             1.5 * std::log(2 * std::numbers::pi)) {}
 
-  Eigen::Vector3d standardized(const PersonEffects& effects) const {
-    return {(effects[0] - mean_s) / sd_s, (effects[1] - mean_t) / sd_t, effects[2] / sd_b};
+  // Of each row.
+  Eigen::ArrayX3d standardized(const Eigen::ArrayX3d& effects) const {
+    Eigen::ArrayX3d z(effects.rows(), 3);
+    z << (effects.col(0) - mean_s) / sd_s, (effects.col(1) - mean_t) / sd_t, effects.col(2) / sd_b;
+    return z;
   }
-  double log_density(const Eigen::Vector3d& z) const {
-    return log_density_at_mean - kappa * (z[0] * z[0] - 2 * rho * z[0] * z[1] + z[1] * z[1]) / 2 -
-           z[2] * z[2] / 2;
+  Eigen::ArrayXd log_density(const Eigen::ArrayX3d& z) const {
+    const auto s = z.col(0), t = z.col(1), b = z.col(2);
+    return log_density_at_mean - kappa / 2 * (s * s - 2 * rho * s * t + t * t) - b * b / 2;
   }
   Eigen::Matrix3d precision() const {
     Eigen::Matrix3d all = Eigen::Matrix3d::Zero();
@@ -81,30 +84,35 @@ struct Distribution {
   double mean_s, mean_t, sd_s, sd_t, sd_b, rho, kappa, log_density_at_mean;
 };
 
-// Slopes of the log density by the population.
-using Slopes = Eigen::Matrix<double, n_population_parameters, 1>;
+// Derivatives of the log density by the population.
+using Slopes = Eigen::Matrix<double, Eigen::Dynamic, n_population_parameters>;  // a row each
 using Bends = Eigen::Matrix<double, n_population_parameters, n_population_parameters>;
 
-Slopes density_slopes(const Distribution& of, const Eigen::Vector3d& z) {
-  const double rho = of.rho, kappa = of.kappa, s = z[0] - rho * z[1], t = z[1] - rho * z[0];
-  const double square = z[0] * z[0] - 2 * rho * z[0] * z[1] + z[1] * z[1];
-  Slopes slopes;
-  slopes << kappa * s / of.sd_s, kappa * t / of.sd_t, kappa * z[0] * s - 1, kappa * z[1] * t - 1,
-      rho + z[0] * z[1] - square * rho * kappa, z[2] * z[2] - 1, 0;
+Slopes density_slopes(const Distribution& of, const Eigen::ArrayX3d& z) {
+  const double rho = of.rho, kappa = of.kappa;
+  const Eigen::ArrayXd s = z.col(0) - rho * z.col(1), t = z.col(1) - rho * z.col(0);
+  const Eigen::ArrayXd square = z.col(0) * s + z.col(1) * t;
+  Slopes slopes(z.rows(), Eigen::Index{n_population_parameters});
+  slopes.col(mean_log_sensitivity) = kappa / of.sd_s * s;
+  slopes.col(mean_log_criterion) = kappa / of.sd_t * t;
+  slopes.col(log_sd_sensitivity) = kappa * z.col(0) * s - 1;
+  slopes.col(log_sd_criterion) = kappa * z.col(1) * t - 1;
+  slopes.col(arctanh_correlation) = rho + z.col(0) * z.col(1) - rho * kappa * square;
+  slopes.col(log_sd_bias) = z.col(2).square() - 1;
+  slopes.col(shared_lapse).setZero();
   return slopes;
 }
 
-// Sums over nodes that give the mean of the second derivatives, which are quadratic in z.
+// Means over nodes that give the mean of the second derivatives, which are quadratic in z.
 struct Moments {
-  double s = 0, t = 0, ss = 0, st = 0, tt = 0, bb = 0;
-  void add(double weight, const Eigen::Vector3d& z) {
-    s += weight * z[0];
-    t += weight * z[1];
-    ss += weight * z[0] * z[0];
-    st += weight * z[0] * z[1];
-    tt += weight * z[1] * z[1];
-    bb += weight * z[2] * z[2];
-  }
+  Moments(const Eigen::ArrayXd& weights, const Eigen::ArrayX3d& z)
+      : s((weights * z.col(0)).sum()),
+        t((weights * z.col(1)).sum()),
+        ss((weights * z.col(0).square()).sum()),
+        st((weights * z.col(0) * z.col(1)).sum()),
+        tt((weights * z.col(1).square()).sum()),
+        bb((weights * z.col(2).square()).sum()) {}
+  double s, t, ss, st, tt, bb;
 };
 
 Bends density_bends(const Distribution& of, const Moments& m) {
@@ -219,82 +227,78 @@ void PersonIntegral::find_mode(const Parameters& population) {
 
 void PersonIntegral::center(const Parameters& population) {
   find_mode(population);
+  put_nodes(population);
+  put_shares();
+}
+
+void PersonIntegral::put_nodes(const Parameters& population) {
   Eigen::LLT<Eigen::Matrix3d> factor(curvature_);
   if (factor.info() != Eigen::Success || !curvature_.allFinite())
     factor.compute(Distribution(population).precision());
-  const double log_scale = -factor.matrixLLT().diagonal().array().log().sum();
-  nodes_.clear();
-  shares_.clear();
-  nodes_.reserve(standard_nodes().size());
-  shares_.reserve(standard_nodes().size() * given_.size());
-  for (const auto& [z, log_weight] : standard_nodes()) {
-    nodes_.push_back({mode_ + factor.matrixU().solve(z), log_weight + log_scale});
-    const IndecisionParameters own = own_parameters(nodes_.back().effects, 0);
-    for (const Given& given : given_) {
+  const auto& [z, log_weight] = standard_nodes();
+  effects_ = (factor.matrixU().solve(z).colwise() + mode_).transpose();
+  log_weights_ = log_weight - factor.matrixLLT().diagonal().array().log().sum();
+}
+
+void PersonIntegral::put_shares() {
+  shares_.resize(effects_.rows(), static_cast<Eigen::Index>(given_.size()));
+  for (Eigen::Index node = 0; node < effects_.rows(); ++node) {
+    const IndecisionParameters own = own_parameters(effects_.row(node), 0);
+    for (Eigen::Index i = 0; const Given& given : given_) {
       const double felt = own.sensitivity * given.level + own.bias;
       const double up = felt - own.indecision, down = felt + own.indecision;
-      shares_.push_back(given.answer == comparison_answer  ? normal_cdf(up)
-                        : given.answer == reference_answer ? normal_cdf(-down)
-                        : up > 0                           ? normal_cdf(-up) - normal_cdf(-down)
-                                                           : normal_cdf(down) - normal_cdf(up));
+      shares_(node, i++) = given.answer == comparison_answer  ? normal_cdf(up)
+                           : given.answer == reference_answer ? normal_cdf(-down)
+                           : up > 0                           ? normal_cdf(-up) - normal_cdf(-down)
+                                                              : normal_cdf(down) - normal_cdf(up);
     }
   }
 }
 
-PersonIntegral::AtNode PersonIntegral::at_node(const double* share, double lapse) const {
-  AtNode sum;
-  double product = 1;  // of probabilities: its logarithm is taken before it underflows
-  for (const Given& given : given_) {
-    const double p = std::max(lapse / 3 + (1 - lapse) * *share, 1e-100);
-    const double slope = (1.0 / 3 - *share) / p;
+PersonIntegral::AtNodes PersonIntegral::at_nodes(double lapse) const {
+  constexpr double least_share = 1e-30;
+  constexpr int trials_at_once = 10;  // a product of so many does not underflow
+  const Eigen::Index n_nodes = shares_.rows();
+  AtNodes sum{Eigen::ArrayXd::Zero(n_nodes), Eigen::ArrayXd::Zero(n_nodes),
+              Eigen::ArrayXd::Zero(n_nodes)};
+  Eigen::ArrayXd product = Eigen::ArrayXd::Ones(n_nodes), p(n_nodes), slope(n_nodes);
+  int n_in_product = 0;
+  for (Eigen::Index i = 0; const Given& given : given_) {
+    const auto share = shares_.col(i++);
+    p = (lapse / 3 + (1 - lapse) * share).max(least_share);
+    slope = (1.0 / 3 - share) / p;
+    sum.slope += given.n * slope;
+    sum.bend -= given.n * slope.square();
     for (double n = given.n; n > 0; n -= 1) {
       product *= p;
-      if (product < 1e-150) sum.value += std::log(std::exchange(product, 1.0));
+      if (++n_in_product < trials_at_once) continue;
+      sum.value += product.log();
+      product.setOnes();
+      n_in_product = 0;
     }
-    sum.slope += given.n * slope;
-    sum.bend -= given.n * slope * slope;
-    ++share;
   }
-  sum.value += std::log(product);
+  sum.value += product.log();
   return sum;
 }
 
 double PersonIntegral::log_likelihood(const Parameters& population, Derivatives* derivatives) {
   const Distribution people(population);
-  struct Term {
-    AtNode at;
-    Eigen::Vector3d z;
-    double value = 0;
-  };
-  std::vector<Term> terms;
-  terms.reserve(nodes_.size());
-  double most = -infinity;
-  for (const Node& node : nodes_) {
-    Term& term = terms.emplace_back(
-        Term{at_node(shares_.data() + terms.size() * given_.size(), population[shared_lapse]),
-             people.standardized(node.effects)});
-    term.value = node.log_weight + term.at.value + people.log_density(term.z);
-    most = std::max(most, term.value);
-  }
-  double sum = 0;
-  for (Term& term : terms) sum += term.value = std::exp(term.value - most);
-  const double value = most + std::log(sum);
+  const AtNodes given = at_nodes(population[shared_lapse]);
+  const Eigen::ArrayX3d z = people.standardized(effects_);
+  Eigen::ArrayXd weights = log_weights_ + given.value + people.log_density(z);
+  const double most = weights.maxCoeff();
+  weights = (weights - most).exp();
+  const double sum = weights.sum(), value = most + std::log(sum);
   if (!derivatives) return value;
-  Moments moments;
-  Slopes slope = Slopes::Zero();
-  Bends bend = Bends::Zero();
-  for (const Term& term : terms) {
-    const double weight = term.value / sum;
-    Slopes slopes = density_slopes(people, term.z);
-    slopes[shared_lapse] = term.at.slope;
-    slope += weight * slopes;
-    bend.noalias() += (weight * slopes) * slopes.transpose();
-    bend(shared_lapse, shared_lapse) += weight * term.at.bend;
-    moments.add(weight, term.z);
-  }
-  score_ = slope;
-  derivatives->gradient = slope;
-  derivatives->hessian = bend - slope * slope.transpose() + density_bends(people, moments);
+  weights /= sum;
+  Slopes slopes = density_slopes(people, z);
+  slopes.col(shared_lapse) = given.slope;
+  score_ = slopes.transpose() * weights.matrix();
+  Bends bend = slopes.transpose() * weights.matrix().asDiagonal() * slopes;
+  bend(shared_lapse, shared_lapse) += (weights * given.bend).sum();
+  derivatives->gradient = score_;
+  derivatives->hessian =
+      bend - score_ * score_.transpose() + density_bends(people, Moments(weights, z));
   return value;
 }
 

@@ -2,9 +2,7 @@
 // sensitivity, criterion half-width and side bias as these are distributed over people.
 //
 // Adaptive Gauss-Hermite quadrature (Pinheiro & Bates 1995): the nodes lie around the person's most
-// likely effects for one population, and stay there while the population changes a little, so that
-// the term is a smooth function of the population with exact derivatives. `center` puts them where
-// another population needs them.
+// likely effects for one population; `center` puts them where another population needs them.
 #pragma once
 
 #include <Eigen/Core>
@@ -49,25 +47,23 @@ class PersonIntegral {
     double level = 0, n = 0;
     IndecisionAnswer answer = none_answer;
   };
-  struct AtNode {  // log likelihood and its derivatives by the lapse rate
-    double value = 0, slope = 0, bend = 0;
-  };
-  struct Node {
-    PersonEffects effects;
-    double log_weight = 0;
+  struct AtNodes {  // log likelihood of the answers and its derivatives by the lapse rate
+    Eigen::ArrayXd value, slope, bend;
   };
 
-  /// @param shares of attentive answers there, as given_
-  AtNode at_node(const double* shares, double lapse) const;
+  AtNodes at_nodes(double lapse) const;
   void find_mode(const Parameters& population);
+  void put_nodes(const Parameters& population);
+  void put_shares();
 
   std::vector<LevelAnswers> answers_;
   std::vector<Given> given_;
   PersonEffects mode_ = PersonEffects::Zero();
   Eigen::Matrix3d curvature_ = Eigen::Matrix3d::Identity();  // at the mode, negative
   bool has_mode_ = false;
-  std::vector<Node> nodes_;
-  std::vector<double> shares_;  // of attentive answers: as given_, by node
+  Eigen::ArrayX3d effects_;     // of each node
+  Eigen::ArrayXd log_weights_;  // of each node
+  Eigen::ArrayXXd shares_;      // of attentive answers: nodes by given_
   Parameters score_;
 };
 

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/Parallel.h"
 #include "inference/Statistics.h"
@@ -12,16 +13,31 @@ namespace heft {
 namespace {
 // Fewer take less time than a thread does to start.
 constexpr std::size_t people_at_once = 32;
+
+// What the quadrature leaves open in the log likelihood; and where some people chose and others
+// never did.
+constexpr double of_quadrature = 1e-3, of_choices_of_few = 0.5;
+
+Parameters within(Parameters at, const std::vector<ParameterBounds>& bounds) {
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    const ParameterBounds& limit = bounds[static_cast<std::size_t>(i)];
+    at[i] = std::clamp(at[i], limit.low, limit.high);
+  }
+  return at;
+}
 }  // namespace
 
 PopulationLikelihood::PopulationLikelihood(const std::vector<std::vector<LevelAnswers>>& people)
     : bounds_(n_population_parameters) {
-  bounds_[mean_log_sensitivity] = {-9, 6};
-  bounds_[mean_log_criterion] = {-7, 9};  // beyond all levels at any sensitivity
-  bounds_[log_sd_sensitivity] = bounds_[log_sd_criterion] = {std::log(0.05), std::log(2)};
-  bounds_[arctanh_correlation] = {-1.5, 1.5};
-  bounds_[log_sd_bias] = {std::log(0.05), std::log(2)};
-  bounds_[shared_lapse] = {0, most_lapses};
+  const auto bound = [this](PopulationParameter i, double low, double high, double longest_step) {
+    bounds_[i] = {.low = low, .high = high, .longest_step = longest_step};
+  };
+  bound(mean_log_sensitivity, -9, 6, 1);
+  bound(mean_log_criterion, -7, 9, 1);  // beyond all levels at any sensitivity
+  for (const auto log_sd : {log_sd_sensitivity, log_sd_criterion, log_sd_bias})
+    bound(log_sd, std::log(0.05), std::log(2), 0.7);
+  bound(arctanh_correlation, -1.5, 1.5, 0.5);
+  bound(shared_lapse, 0, most_lapses, 0.05);
   for (const std::vector<LevelAnswers>& answers : people) {
     people_.emplace_back(answers);
     for (const auto& [level, n] : answers) {
@@ -44,19 +60,15 @@ Parameters PopulationLikelihood::start(double log_sensitivity) const {
   return at;
 }
 
-void PopulationLikelihood::center(const Parameters& at) {
-  in_parallel(people_.size(), people_at_once, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) people_[i].center(at);
-  });
-}
-
 // Added up in the order of people, so that the sum does not depend on the number of processors.
 double PopulationLikelihood::value(const Parameters& at, Derivatives* derivatives) {
   std::vector<double> values(people_.size());
   std::vector<Derivatives> terms(derivatives ? people_.size() : 0);
   in_parallel(people_.size(), people_at_once, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
+    for (std::size_t i = first; i < last; ++i) {
+      people_[i].center(at);
       values[i] = people_[i].log_likelihood(at, derivatives ? &terms[i] : nullptr);
+    }
   });
   if (derivatives) {
     derivatives->gradient.setZero(n_population_parameters);
@@ -77,37 +89,15 @@ double PopulationLikelihood::value(const Parameters& at, Derivatives* derivative
   return sum;
 }
 
-// As far as the nodes reach that were placed for `at`.
-std::vector<ParameterBounds> PopulationLikelihood::near(const Parameters& at) const {
-  constexpr std::array<double, n_population_parameters> reach{1, 1, 0.7, 0.7, 0.5, 0.7, 0.05};
-  std::vector<ParameterBounds> box = bounds_;
-  for (std::size_t i = 0; i < box.size(); ++i) {
-    const double here = at[static_cast<Eigen::Index>(i)];
-    box[i].low = std::max(box[i].low, here - reach[i]);
-    box[i].high = std::min(box[i].high, here + reach[i]);
-  }
-  return box;
-}
-
 LogLikelihood PopulationLikelihood::log_likelihood() {
   return [this](const Parameters& at, Derivatives* derivatives) { return value(at, derivatives); };
 }
 
 Maximum PopulationLikelihood::climb(Parameters from, Eigen::Index held) {
-  // What a move of the nodes still changes in the log likelihood.
-  const double near_enough = held < 0 ? 1e-5 : 1e-3;
-  Maximum best{std::move(from), 0};
   const LogLikelihood function = log_likelihood();
-  for (int i = 0; i < 40; ++i) {
-    center(best.at);
-    const std::vector<ParameterBounds> box = near(best.at);
-    const Starts starts{{best.at}};
-    const Maximum next = Likelihood(function, box, starts).climb(best.at, held, near_enough / 100);
-    const double change = std::abs(next.log_likelihood - best.log_likelihood);
-    best = next;
-    if (i > 0 && change < near_enough) break;
-  }
-  return best;
+  const Starts starts{{from}};
+  return Likelihood(function, bounds_, starts)
+      .climb_by_score(from, held, {held < 0 ? 1e-7 : 1e-5, of_choices_of_few});
 }
 
 Maximum PopulationLikelihood::maximum(std::optional<double> lapse) {
@@ -115,7 +105,6 @@ Maximum PopulationLikelihood::maximum(std::optional<double> lapse) {
   for (const double log_sensitivity : {-0.5, 0.5, 1.5, 2.5, 3.5}) {
     Parameters at = start(log_sensitivity);
     at[shared_lapse] = lapse.value_or(at[shared_lapse]);
-    center(at);
     best = likelier(best, {at, value(at, nullptr)});
   }
   const Eigen::Index held = lapse ? Eigen::Index{shared_lapse} : -1;
@@ -123,21 +112,13 @@ Maximum PopulationLikelihood::maximum(std::optional<double> lapse) {
 }
 
 namespace {
-constexpr double likelier_by = 1e-3;  // beyond what the quadrature leaves open
+constexpr double straight_enough = 0.01;  // of the root of the fall
 
 double interval_drop_of(std::size_t n_people) {
   const double n = static_cast<double>(n_people);
   if (n < 2) return interval_drop;
   const double t = student_t_quantile(n - 1);
   return n / 2 * std::log1p(t * t / (n - 1));
-}
-
-Parameters within(Parameters at, const std::vector<ParameterBounds>& bounds) {
-  for (Eigen::Index i = 0; i < at.size(); ++i) {
-    const ParameterBounds& limit = bounds[static_cast<std::size_t>(i)];
-    at[i] = std::clamp(at[i], limit.low, limit.high);
-  }
-  return at;
 }
 
 // One end of a profile interval. The square root of the fall is nearly a straight line.
@@ -175,13 +156,17 @@ std::optional<double> ProfileEnd::search(double step, Parameters change) {
   const ParameterBounds& bounds = people_.bounds()[static_cast<std::size_t>(of_)];
   const double limit = step < 0 ? bounds.low : bounds.high;
   int n_steps = 0;
-  for (Maximum inner = best_; inner.at[of_] != limit; step *= 1.5) {
+  for (Maximum inner = best_; inner.at[of_] != limit;) {
     if (++n_steps == 3 && of_ == mean_log_sensitivity && excess(at_extreme_sensitivity(limit)) <= 0)
       return std::nullopt;
     const double here = inner.at[of_];
     const double to = std::abs(limit - here) <= std::abs(step) ? limit : here + step;
     const Maximum outer = held_at(to, inner.at + (to - here) * change);
     if (excess(outer) > 0) return between(inner, outer);
+    const double by_line = (to - best_.at[of_]) * -excess(outer) / (excess(outer) + root_);
+    if (-excess(outer) < straight_enough && to != limit) return to + by_line;
+    // A little beyond where the straight line ends.
+    step = std::copysign(std::min(1.1 * std::abs(by_line), 1.5 * std::abs(step)), step);
     change = (outer.at - inner.at) / (to - here);
     inner = outer;
   }
@@ -199,12 +184,13 @@ Maximum ProfileEnd::at_extreme_sensitivity(double limit) {
 
 // Regula falsi until the straight line is as good as the profile.
 double ProfileEnd::between(Maximum inner, Maximum outer) {
-  constexpr double straight_enough = 0.01;
+  const double narrow = people_.bounds()[static_cast<std::size_t>(of_)].longest_step / 1000;
   for (int i = 0;; ++i) {
     const double at_inner = excess(inner), at_outer = excess(outer);
     const double part = -at_inner / (at_outer - at_inner);
     const double here = inner.at[of_] + part * (outer.at[of_] - inner.at[of_]);
-    if (std::min(-at_inner, at_outer) < straight_enough || i == 30) return here;
+    const bool is_narrow = std::abs(outer.at[of_] - inner.at[of_]) < narrow;
+    if (std::min(-at_inner, at_outer) < straight_enough || is_narrow || i == 30) return here;
     const Maximum middle = held_at(here, inner.at + part * (outer.at - inner.at));
     (excess(middle) < 0 ? inner : outer) = middle;
   }
@@ -215,7 +201,6 @@ PopulationLikelihood::ProfileInterval PopulationLikelihood::interval(Maximum& be
                                                                      Eigen::Index of) {
   const double drop = interval_drop_of(people_.size());
   for (int i = 0;; ++i) {
-    center(best.at);
     const LogLikelihood function = log_likelihood();
     const Starts starts{{best.at}};
     Likelihood likelihood(function, bounds_, starts);
@@ -225,7 +210,7 @@ PopulationLikelihood::ProfileInterval PopulationLikelihood::interval(Maximum& be
     ProfileEnd low(*this, best, of, drop), high(*this, best, of, drop);
     const ProfileInterval found{low.search(-step, change), high.search(step, change)};
     const Maximum likeliest = likelier(low.likeliest(), high.likeliest());
-    if (i == 5 || likeliest.log_likelihood <= best.log_likelihood + likelier_by) return found;
+    if (i == 5 || likeliest.log_likelihood <= best.log_likelihood + of_quadrature) return found;
     best = climb(likeliest.at);
   }
 }
@@ -238,7 +223,6 @@ bool PopulationLikelihood::excludes_no_sensitivity(const Maximum& best) {
 }
 
 std::vector<double> PopulationLikelihood::influences(const Maximum& best, Eigen::Index of) {
-  center(best.at);
   Derivatives sum;
   value(best.at, &sum);
   std::vector<Eigen::Index> free;

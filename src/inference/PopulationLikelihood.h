@@ -47,10 +47,8 @@ class PopulationLikelihood {
 
  private:
   Parameters start(double log_sensitivity) const;
-  void center(const Parameters& at);
   double value(const Parameters& at, Derivatives* derivatives);
   LogLikelihood log_likelihood();
-  std::vector<ParameterBounds> near(const Parameters& at) const;
 
   std::vector<PersonIntegral> people_;
   std::vector<ParameterBounds> bounds_;
