@@ -5,22 +5,9 @@
 #include <algorithm>
 #include <array>
 
-#include "psychophysics/ProcedureKinds.h"
-
 namespace heft {
 
 namespace {
-bool is_unfinished(const Procedure& staircase) {
-  return !staircase.finished();
-}
-
-std::size_t drawn_unfinished(const std::vector<Procedure>& staircases, RandomStream& stream) {
-  std::vector<std::size_t> unfinished;
-  for (std::size_t i = 0; i < staircases.size(); ++i)
-    if (is_unfinished(staircases[i])) unfinished.push_back(i);
-  return unfinished.at(stream.below(unfinished.size()));
-}
-
 int n_planned(const Comparison::Block& block) {
   int n = 0;
   for (const ReferenceCatchTrials& some : block.catch_trials) n += some.trials;
@@ -39,45 +26,6 @@ std::vector<double> catch_references(const Comparison::Block& block, std::uint64
     references_g.insert(references_g.end(), of_round.begin(), of_round.end());
   }
   return references_g;
-}
-
-// Number of trials with one observer, who answers yes if the difference plus noise in proportion to
-// the threshold exceeds the threshold; in a forced choice, 0: at the threshold 75 % are correct.
-int simulated_trials(Procedure procedure, double threshold_g, bool is_forced,
-                     std::uint64_t observer) {
-  const double noise_per_threshold = is_forced ? 1 / 0.6745 : 0.4;
-  constexpr int enough_trials = 1000;  // steps too small for the start may never converge
-  RandomStream stream(0, "expected length", observer);
-  const RandomStream levels = level_stream(observer, procedure.name());
-  while (!procedure.finished() && procedure.n_trials() < enough_trials) {
-    const double level_g = procedure.next_level(levels);
-    const double seen_g = level_g + noise_per_threshold * threshold_g * stream.normal();
-    procedure.respond({seen_g > (is_forced ? 0 : threshold_g)}, level_g);
-  }
-  return procedure.n_trials();
-}
-
-double mean_trials(const Procedure& procedure, double largest_threshold_g, bool is_forced) {
-  if (const auto planned = procedure.planned_trials()) return *planned;
-  if (const auto most = procedure.most_trials()) return *most;
-  constexpr int n_observers = 200;
-  double total = 0;
-  for (int i = 0; i < n_observers; ++i) {
-    const double fraction = 0.25 + 0.75 * (i + 0.5) / n_observers;
-    total += simulated_trials(procedure, fraction * largest_threshold_g, is_forced,
-                              static_cast<std::uint64_t>(i));
-  }
-  return total / n_observers;
-}
-
-// Staircases of one reference that start above and below use the same observers.
-double largest_start_g(const Comparison::Block& block, double reference_g) {
-  double largest_g = 0;
-  for (const ReferenceStaircase& other : block.staircases)
-    if (other.reference_g == reference_g)
-      for (double level_g : other.staircase.planned_levels())
-        largest_g = std::max(largest_g, level_g);
-  return largest_g;
 }
 
 std::string catch_text(const Comparison::Block& block) {
@@ -103,11 +51,8 @@ ConfigMistakes Comparison::Block::check() const {
 }
 
 std::vector<std::pair<std::string, std::string>> Comparison::Block::choices() const {
-  std::string order(name_of(interleaving.interleave));
-  if (interleaving.max_lag > 0)
-    order += fmt::format(", at most {} trials ahead", interleaving.max_lag);
   std::vector<std::pair<std::string, std::string>> choices{
-      {"interleaving", order},
+      {"interleaving", in_words(interleaving)},
       {"catch trials", catch_text(*this)},
       {"sides of the reference", std::string(name_of(sides))},
       {"moves a staircase down", is_forced()           ? "choice of the comparison"
@@ -115,31 +60,22 @@ std::vector<std::pair<std::string, std::string>> Comparison::Block::choices() co
                                                        : "answer \"different\""}};
   if (!is_forced() && !has_three_answers()) choices.emplace_back("answers", "same or different");
   if (is_forced()) choices.emplace_back("answers", "forced choice, without \"no difference\"");
-  for (const ReferenceStaircase& reference : staircases) {
-    const std::string its_name = "staircase " + reference.staircase.name();
-    if (std::string course = ProcedureKinds::course(reference.staircase, "g"); !course.empty())
-      choices.emplace_back(its_name + ", start and steps", std::move(course));
-    choices.emplace_back(its_name, ProcedureKinds::described(reference.staircase));
-  }
+  add_staircases(choices, staircases);
   return choices;
 }
 
+StaircaseRules Comparison::Block::staircase_rules() const {
+  StaircaseRules rules{.either_sign = is_forced()};
+  if (answers == ComparisonAnswers::same_different) rules.no_cube = "answers = \"same_different\"";
+  return rules;
+}
+
 double Comparison::Block::expected_staircase_trials() const {
-  double trials = 0;
-  for (const ReferenceStaircase& reference : staircases)
-    trials += mean_trials(reference.staircase, largest_start_g(*this, reference.reference_g),
-                          is_forced());
-  return trials;
+  return heft::expected_trials(staircases, is_forced());
 }
 
 double Comparison::Block::expected_trials() const {
   return expected_staircase_trials() / (1 - catch_fraction) + n_planned(*this);
-}
-
-bool Comparison::Block::depends_on_answers() const {
-  return std::ranges::any_of(staircases, [](const ReferenceStaircase& reference) {
-    return !reference.staircase.planned_trials();
-  });
 }
 
 Comparison::Block Comparison::Block::for_practice() const {
@@ -150,12 +86,11 @@ Comparison::Block Comparison::Block::for_practice() const {
   return block;
 }
 
-Comparison::Run::Run(const Block& block, std::uint64_t) : block_(block) {
-  for (const ReferenceStaircase& entry : block_.staircases) staircases_.push_back(entry.staircase);
-}
+Comparison::Run::Run(const Block& block, std::uint64_t)
+    : block_(block), staircases_(block.staircases, block.interleaving) {}
 
 bool Comparison::Run::finished() const {
-  return std::ranges::none_of(staircases_, is_unfinished) && n_caught_ >= n_planned(block_);
+  return staircases_.finished() && n_caught_ >= n_planned(block_);
 }
 
 // One catch trial in each block of `catch_every` trials, at a random position.
@@ -168,14 +103,14 @@ std::optional<double> Comparison::Run::catch_reference_g(std::uint64_t seed) con
   const int drawn =
       first +
       static_cast<int>(stream.below(static_cast<std::uint64_t>(block_.catch_every - first)));
-  if (place != drawn && std::ranges::any_of(staircases_, is_unfinished)) return std::nullopt;
+  if (place != drawn && !staircases_.finished()) return std::nullopt;
   return catch_references(block_, seed).at(static_cast<std::size_t>(n_caught_));
 }
 
 // A catch trial uses the technique of one of its reference's staircases.
 std::size_t Comparison::Run::staircase_of(double reference_g, RandomStream& stream) const {
   std::vector<std::size_t> its;
-  for (std::size_t i = 0; i < staircases_.size(); ++i)
+  for (std::size_t i = 0; i < block_.staircases.size(); ++i)
     if (block_.staircases[i].reference_g == reference_g) its.push_back(i);
   return its.at(stream.below(its.size()));
 }
@@ -196,11 +131,9 @@ TrialPlan Comparison::Run::plan(const TrialKey& key) const {
   const std::optional<double> caught_g = catch_reference_g(key.seed);
   const bool is_catch = caught_g || catch_stream.coin(block_.catch_fraction);
   RandomStream interleave_stream = key.trial("interleave");
-  const std::size_t index =
-      caught_g ? staircase_of(*caught_g, catch_stream)
-      : is_catch
-          ? drawn_unfinished(staircases_, catch_stream)
-          : next_staircase(staircases_, block_.interleaving, previous_, interleave_stream).value();
+  const std::size_t index = caught_g   ? staircase_of(*caught_g, catch_stream)
+                            : is_catch ? staircases_.drawn_unfinished(catch_stream)
+                                       : staircases_.next(interleave_stream);
   const ReferenceStaircase& reference = block_.staircases[index];
   TrialPlan plan = key.plan(block_.name, task.name,
                             reference.condition.empty() ? block_.condition : reference.condition);
@@ -219,21 +152,7 @@ TrialPlan Comparison::Run::plan(const TrialKey& key) const {
 void Comparison::Run::complete(const TrialRow& row, Changes& changes) {
   ++n_completed_;
   if (row.plan.is_catch) ++n_caught_;
-  for (std::size_t i = 0; i < staircases_.size(); ++i)
-    if (staircases_[i].name() == row.plan.staircase) respond(i, row, changes);
-}
-
-void Comparison::Run::respond(std::size_t index, const TrialRow& row, Changes& changes) {
-  Procedure& staircase = staircases_[index];
-  const Update update = staircase.respond(response_in(row, block_.positive_answer, block_.answers),
-                                          *row.plan.level_g);
-  if (const auto& reversal = update.reversal)
-    changes.reversals = {{row.attempt_index, staircase.name(), reversal->number, reversal->level,
-                          reversal->step_before, reversal->step_after}};
-  if (update.finish)
-    for (const Estimate& estimate : staircase.estimates())
-      changes.estimates.push_back(row_of(staircase.name(), estimate, *update.finish));
-  previous_ = index;
+  staircases_.respond(row, response_in(row, block_.positive_answer, block_.answers), changes);
 }
 
 Response Comparison::response_in(const TrialRow& row, PositiveAnswer positive_answer,
@@ -252,12 +171,6 @@ Response Comparison::response_in(const TrialRow& row, PositiveAnswer positive_an
 std::optional<bool> Comparison::is_correct(const TrialRow& row) {
   if (row.plan.level_g == 0) return std::nullopt;
   return row.chosen_slot ? row.choice_correct : row.outcome == "difference";
-}
-
-std::optional<std::string> Comparison::Run::survivor() const {
-  if (staircases_.size() < 2 || std::ranges::count_if(staircases_, is_unfinished) != 1)
-    return std::nullopt;
-  return std::ranges::find_if(staircases_, is_unfinished)->name();
 }
 
 std::optional<std::string> Comparison::Trial::refusal(const Action& action) const {

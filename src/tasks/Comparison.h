@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "base/Random.h"
-#include "psychophysics/Interleaving.h"
 #include "psychophysics/ProcedureTypes.h"
 #include "tasks/BlockKeys.h"
+#include "tasks/Staircases.h"
 #include "tasks/Task.h"
 #include "tasks/TaskRun.h"
 
@@ -49,26 +49,11 @@ struct EnumNames<Sides> {
   static constexpr std::array<std::string_view, 2> names{"random", "balanced"};
 };
 
-/// A procedure of a comparison block, and its reference.
-struct ReferenceStaircase {
-  double reference_g = 0;
-  Procedure staircase;      ///< before its first trial; levels in g: comparison - reference
-  std::string condition{};  ///< technique; empty: the block's
-};
-
 /// Number of catch trials with a reference.
 struct ReferenceCatchTrials {
   double reference_g = 0;
   int trials = 0;
 };
-
-/// The procedures of a block, whose checks depend on its answers.
-template <typename Block>
-struct StaircasesOf {
-  Block& block;
-};
-template <typename Block>
-StaircasesOf(Block&) -> StaircasesOf<Block>;
 
 /// The keys of a block's catch trials.
 template <typename Block>
@@ -126,11 +111,10 @@ struct Comparison {
     }
     ConfigMistakes check() const;
     std::vector<std::pair<std::string, std::string>> choices() const;
-    /// Without catch trials. Staircases whose length depends on the answers are
-    /// simulated; of Bayesian kinds it is the largest.
-    double expected_staircase_trials() const;
+    StaircaseRules staircase_rules() const;
+    double expected_staircase_trials() const;  ///< without catch trials
     double expected_trials() const;
-    bool depends_on_answers() const;
+    bool depends_on_answers() const { return depend_on_answers(staircases); }
     int most_cubes() const { return 2; }
     /// Without catch trials, and with random sides: staircases do not advance in practice.
     Block for_practice() const;
@@ -150,18 +134,16 @@ struct Comparison {
     TrialPlan plan(const TrialKey& key) const override;
     bool finished() const override;
     void complete(const TrialRow& row, Changes& changes) override;
-    std::optional<std::string> survivor() const override;
+    std::optional<std::string> survivor() const override { return staircases_.survivor(); }
 
    private:
     std::optional<double> catch_reference_g(std::uint64_t seed) const;
     std::size_t staircase_of(double reference_g, RandomStream& stream) const;
     int reference_slot(const TrialKey& key, const TrialPlan& plan, int n_before) const;
-    void respond(std::size_t staircase, const TrialRow& row, Changes& changes);
 
     Block block_;
-    std::vector<Procedure> staircases_;    // in the order of the block's
-    std::optional<std::size_t> previous_;  // of the last completed trial with a staircase
-    int n_completed_ = 0, n_caught_ = 0;   // trials, and catch trials among them
+    RunningStaircases staircases_;
+    int n_completed_ = 0, n_caught_ = 0;  // trials, and catch trials among them
   };
 
   class Trial : public TaskTrial {

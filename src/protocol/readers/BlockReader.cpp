@@ -51,73 +51,6 @@ std::vector<TechniqueTrials> read_trials_of_two(TableReader& table) {
   return {{coupled_technique, c1_trials}, {spring_technique, trials - c1_trials}};
 }
 
-// paired = true: one staircase from `start`, another from `start_below`, otherwise equal.
-std::vector<StaircaseSettings> pair_of(TableReader& table, const StaircaseSettings& read,
-                                       std::optional<double> start_below) {
-  const auto* above = std::get_if<UpDownConfig>(&read.config);
-  if (!above) {
-    table.mistake("paired", "paired requires up_down staircases, which have a start");
-    return {};
-  }
-  UpDownConfig below = *above;
-  if (start_below)
-    below.start = *start_below;
-  else if (above->floor)
-    below.start = *above->floor;
-  if (table.good({"start", "start_below", "floor"}) &&
-      (below.start >= above->start || (above->floor && below.start < *above->floor)))
-    table.mistake(start_below ? "start_below" : "paired",
-                  fmt::format("the staircase from below starts at {}, expected below the start {} "
-                              "and not below the floor: set start_below",
-                              below.start, above->start));
-  return {{read.name + " from above", *above}, {read.name + " from below", below}};
-}
-
-// Whether the procedure's model is of which stimulus was chosen, and not of yes and no.
-template <typename Settings>
-bool needs_choice(const Settings& settings) {
-  return std::visit(
-      [](const auto& config) {
-        if constexpr (requires { config.is_indecision(); })
-          return config.is_indecision();
-        else
-          return false;
-      },
-      settings);
-}
-
-std::vector<ReferenceStaircase> read_reference_staircases(TableReader& table, NamesInUse& names,
-                                                          ComparisonAnswers answers) {
-  double reference_g = 0;
-  std::string condition;
-  bool paired = false;
-  std::optional<double> start_below;
-  table.require({"reference_g"});
-  table.read("reference_g", reference_g, above_zero);
-  names.techniques.read(table, condition);
-  table.read("paired", paired);
-  table.read("start_below", start_below, zero_or_more);
-  if (start_below && !paired)
-    table.mistake("start_below",
-                  "start_below requires paired = true, which makes a second "
-                  "staircase that starts there");
-  const auto settings = read_staircase(table);
-  if (!settings) return {};
-  if (table.has("reference_g") && table.good({"reference_g"}))
-    check_beside(table, *settings, reference_g, answers == ComparisonAnswers::heavier);
-  if (answers == ComparisonAnswers::same_different && needs_choice(settings->config))
-    table.mistake("function",
-                  "function is \"indecision\" with answers = \"same_different\", "
-                  "expected another: this one needs to know which cube is heavier");
-  std::vector<ReferenceStaircase> staircases;
-  for (const StaircaseSettings& one :
-       paired ? pair_of(table, *settings, start_below) : std::vector{*settings}) {
-    names.staircases.check(table, one.name);
-    staircases.push_back({reference_g, one.procedure(), condition});
-  }
-  return staircases;
-}
-
 // catch_trials = { 15g = 10, 200g = 10 } by reference, or one number for all of them together.
 void read_catch_trials(TableReader& table, Comparison::Block& block) {
   std::vector<double> references_g;
@@ -206,9 +139,11 @@ class KeyReader {
     field.trials = {all};
   }
   void read(std::string_view, InterleaveConfig& field) { field = read_interleaving(table_); }
-  void read(std::string_view key, StaircasesOf<Comparison::Block>& field) {
+  template <typename Block>
+  void read(std::string_view key, StaircasesOf<Block>& field) {
     for (TableReader& staircase : table_.tables(key))
-      std::ranges::move(read_reference_staircases(staircase, names_, field.block.answers),
+      std::ranges::move(read_staircases_of(staircase, names_.techniques, names_.staircases,
+                                           field.block.staircase_rules()),
                         std::back_inserter(field.block.staircases));
   }
   void read(std::string_view, CatchTrials<Comparison::Block>& field) {

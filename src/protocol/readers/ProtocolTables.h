@@ -14,8 +14,11 @@
 #include "protocol/toml/TomlDocument.h"
 #include "psychophysics/Interleaving.h"
 #include "psychophysics/ProcedureKinds.h"
+#include "tasks/Staircases.h"
 
 namespace heft {
+
+class UniqueNames;
 
 /// Reads and closes the table [effector], if it exists.
 void read_effector(TableReader& reader, Eigen::Vector3d& size_m);
@@ -77,6 +80,11 @@ std::optional<StaircaseSettings> read_staircase(TableReader& table);
 /// @param either_sign the comparison may be lighter
 void check_beside(TableReader& table, const StaircaseSettings& settings, double reference_g,
                   bool either_sign);
+
+/// Reads one [[block.staircase]], which `paired` makes two.
+std::vector<ReferenceStaircase> read_staircases_of(TableReader& table,
+                                                   const TechniqueNames& techniques,
+                                                   UniqueNames& names, const StaircaseRules& rules);
 
 /// Reads `interleave` and `max_lag`.
 InterleaveConfig read_interleaving(TableReader& table);

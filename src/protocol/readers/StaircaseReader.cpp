@@ -1,0 +1,86 @@
+// The procedures of a block's trials: [[block.staircase]].
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "protocol/readers/ProtocolTables.h"
+#include "tasks/Staircases.h"
+
+namespace heft {
+
+namespace {
+// paired = true: one staircase from `start`, another from `start_below`, otherwise equal.
+std::vector<StaircaseSettings> pair_of(TableReader& table, const StaircaseSettings& read,
+                                       std::optional<double> start_below) {
+  const auto* above = std::get_if<UpDownConfig>(&read.config);
+  if (!above) {
+    table.mistake("paired", "paired requires up_down staircases, which have a start");
+    return {};
+  }
+  UpDownConfig below = *above;
+  if (start_below)
+    below.start = *start_below;
+  else if (above->floor)
+    below.start = *above->floor;
+  if (table.good({"start", "start_below", "floor"}) &&
+      (below.start >= above->start || (above->floor && below.start < *above->floor)))
+    table.mistake(start_below ? "start_below" : "paired",
+                  fmt::format("the staircase from below starts at {}, expected below the start {} "
+                              "and not below the floor: set start_below",
+                              below.start, above->start));
+  return {{read.name + " from above", *above}, {read.name + " from below", below}};
+}
+
+// Whether the procedure's model is of which stimulus was chosen, and not of yes and no.
+template <typename Settings>
+bool needs_choice(const Settings& settings) {
+  return std::visit(
+      [](const auto& config) {
+        if constexpr (requires { config.is_indecision(); })
+          return config.is_indecision();
+        else
+          return false;
+      },
+      settings);
+}
+
+}  // namespace
+
+std::vector<ReferenceStaircase> read_staircases_of(TableReader& table,
+                                                   const TechniqueNames& techniques,
+                                                   UniqueNames& names,
+                                                   const StaircaseRules& rules) {
+  double reference_g = 0;
+  std::string condition;
+  bool paired = false;
+  std::optional<double> start_below;
+  table.require({"reference_g"});
+  table.read("reference_g", reference_g, above_zero);
+  techniques.read(table, condition);
+  table.read("paired", paired);
+  table.read("start_below", start_below, zero_or_more);
+  if (start_below && !paired)
+    table.mistake("start_below",
+                  "start_below requires paired = true, which makes a second "
+                  "staircase that starts there");
+  const auto settings = read_staircase(table);
+  if (!settings) return {};
+  if (table.has("reference_g") && table.good({"reference_g"}))
+    check_beside(table, *settings, reference_g, rules.either_sign);
+  if (!rules.no_cube.empty() && needs_choice(settings->config))
+    table.mistake("function", fmt::format("function is \"indecision\" with {}, expected another: "
+                                          "this one needs to know which cube is heavier",
+                                          rules.no_cube));
+  std::vector<ReferenceStaircase> staircases;
+  for (const StaircaseSettings& one :
+       paired ? pair_of(table, *settings, start_below) : std::vector{*settings}) {
+    names.check(table, one.name);
+    staircases.push_back({reference_g, one.procedure(), condition});
+  }
+  return staircases;
+}
+
+}  // namespace heft
