@@ -58,6 +58,7 @@ void TableReader::mistake(std::string_view key, const std::string& message) {
 }
 
 void TableReader::mistake(std::string_view key, std::size_t i, const std::string& message) {
+  if (!is_list(key)) return mistake(key, message);  // a grid of values as a table
   mistaken_.emplace(key);
   mistakes_->add(std::get<TomlArray>(find(key)->node.value).at(i).place, message);
 }
