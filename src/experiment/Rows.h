@@ -55,9 +55,11 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"staircase", "", "procedure that set the level; NULL in catch trials"},
         NullIfEmpty{row.plan.staircase});
   visit(LogColumn{"reference_g", "g", "mass of the reference", "> 0"}, row.plan.reference_g);
-  visit(LogColumn{"level_g", "g",
-                  "presented comparison mass minus reference mass; of an adjustment, at its start"},
-        row.plan.level_g);
+  visit(
+      LogColumn{"level_g", "g",
+                "presented comparison mass minus reference mass (of an adjustment, at its start); "
+                "of a judgment of one cube, its mass"},
+      row.plan.level_g);
   visit(LogColumn{"is_catch", "", "catch trial: the difference is 0 and no procedure is updated"},
         row.plan.is_catch);
   visit(LogColumn{"is_practice", "", "practice trial: excluded from all results"},

@@ -52,7 +52,7 @@ struct TrialPlan {
   Task task;
   std::string condition = spring_technique;  ///< name of the technique
   std::string staircase;                     ///< empty: none (for example catch trials)
-  std::optional<double> reference_g;         ///< comparisons and adjustments only
+  std::optional<double> reference_g;         ///< none: nothing is compared with one
   std::optional<double> level_g;             ///< comparison - reference, as presented first
   bool is_catch = false;
   bool is_practice = false;

@@ -13,16 +13,17 @@
 namespace heft {
 
 namespace {
-// How many ways there are to take so many of n, if equal ones count as different.
-double n_ways(std::size_t n, std::size_t taken) {
-  double ways = 1;
-  for (std::size_t i = 0; i < taken; ++i)
-    ways *= static_cast<double>(n - i) / static_cast<double>(i + 1);
-  return ways;
-}
-
 Answer judged(double value) {
   return {{{"judge", {}, {}, value}}};
+}
+
+// The first choice with one of these meanings, the best first; none: there is none.
+std::optional<Answer> meant(const Judgment::Offer& offer, std::initializer_list<Meaning> meanings) {
+  for (const Meaning meaning : meanings)
+    for (const double point : Judgment::scale(offer.question).points)
+      if (meaning_of(offer.responses, Judgment::choice_of(offer.question, point)) == meaning)
+        return judged(point);
+  return std::nullopt;
 }
 }  // namespace
 
@@ -95,64 +96,32 @@ std::vector<PlannedCubes> shuffled(const std::vector<CubeSet>& sets,
   return order;
 }
 
-std::vector<CubeSet> Judgment::Block::sets() const {
-  const std::size_t n = masses_g.size(), taken = static_cast<std::size_t>(most_cubes());
-  if (taken > n || n_ways(n, taken) > most_trials) return {};
-  std::vector<CubeSet> sets;
-  std::set<std::vector<std::pair<double, double>>> known;
-  std::vector<char> is_taken(n, 0);
-  std::fill_n(is_taken.begin(), taken, 1);
-  do {
-    CubeSet one;
-    std::vector<std::pair<double, double>> sorted;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!is_taken[i]) continue;
-      one.masses_g.push_back(masses_g[i]);
-      if (i < table_friction.size()) one.table_friction.push_back(table_friction[i]);
-      sorted.emplace_back(masses_g[i], i < table_friction.size() ? table_friction[i] : 0);
-    }
-    std::ranges::sort(sorted);
-    if (known.insert(std::move(sorted)).second) sets.push_back(std::move(one));
-  } while (std::prev_permutation(is_taken.begin(), is_taken.end()));
-  return sets;
+void Judgment::Run::complete(const TrialRow& row, Changes& changes) {
+  ++n_completed_;
+  staircases_.respond(row, block_.response_in(row), changes);
 }
 
-ConfigMistakes Judgment::Block::check() const {
-  const std::size_t n = masses_g.size(), taken = static_cast<std::size_t>(most_cubes());
-  const std::size_t most = cubes > 0 ? std::size_t{most_trials} : FrameRow::most_cubes;
-  ConfigMistakes mistakes = mistakes_in_number_of_cubes(masses_g, table_friction, 1, most);
-  const auto add = [&](std::vector<std::string_view> keys, std::string what, std::string expected) {
-    mistakes.push_back({std::move(keys), std::move(what), std::move(expected)});
-  };
-  if (n > 0 && taken > n)
-    add({"cubes"}, fmt::format("cubes is {} of {} masses", taken, n), fmt::format("at most {}", n));
-  else if (const double ways = n > 0 ? n_ways(n, taken) : 0; ways > most_trials)
-    add({"cubes", "masses_g"}, fmt::format("there are {:.0f} sets of {} cubes", ways, taken),
-        fmt::format("at most {}", most_trials));
-  else if (const double trials_in_all = expected_trials();
-           n > 0 && (trials_in_all < 1 || trials_in_all > most_trials))
-    add({"trials", "masses_g"}, fmt::format("the block has {:g} trials", trials_in_all),
-        fmt::format("1 to {}", most_trials));
-  if (!question_named(asks))
-    add({"question"}, fmt::format("question is \"{}\"", asks),
-        "a question of a questionnaire file, NAME.KEY");
-  return mistakes;
-}
-
-std::vector<std::pair<std::string, std::string>> Judgment::Block::choices() const {
-  Choices choices{{"question of " + name, asks}};
-  add_friction(choices, name, masses_g, table_friction);
-  return choices;
-}
-
-std::optional<std::string> Judgment::Block::questionnaire() const {
-  const auto names = question_named(asks);
-  return names ? std::optional(names->first) : std::nullopt;
+TrialPlan Judgment::Run::plan_of_staircase(const TrialKey& key) const {
+  RandomStream stream = key.trial("interleave");
+  const std::size_t index = staircases_.next(stream);
+  const ReferenceStaircase& of_block = block_.staircases[index];
+  TrialPlan plan = key.plan(block_.name, task.name,
+                            of_block.condition.empty() ? block_.condition : of_block.condition);
+  plan.staircase = of_block.staircase.name();
+  plan.level_g = staircases_[index].next_level(level_stream(key.seed, plan.staircase));
+  plan.masses_g = {of_block.reference_g + *plan.level_g};
+  if (!block_.has_reference()) return plan;
+  plan.reference_g = of_block.reference_g;
+  plan.reference_slot = key.slots().coin(0.5) ? 1 : 2;
+  plan.masses_g.insert(plan.reference_slot == 1 ? plan.masses_g.begin() : plan.masses_g.end(),
+                       of_block.reference_g);
+  return plan;
 }
 
 TrialPlan Judgment::Run::plan(const TrialKey& key) const {
+  if (!block_.staircases.empty()) return plan_of_staircase(key);
   const auto& [shown, technique] = order_.at(n_completed_);
-  TrialPlan plan = key.plan(name_, task.name, technique);
+  TrialPlan plan = key.plan(block_.name, task.name, technique);
   std::vector<std::size_t> places(shown.masses_g.size());
   std::iota(places.begin(), places.end(), std::size_t{0});
   key.slots().shuffle(std::span(places));
@@ -183,6 +152,12 @@ AnswerScale Judgment::scale(const FormQuestion& question) {
   return scale;
 }
 
+const AnswerChoice* Judgment::choice_of(const FormQuestion& question, double value) {
+  const auto points = scale(question).points;
+  const auto place = static_cast<std::size_t>(std::ranges::find(points, value) - points.begin());
+  return place < points.size() ? &question.choices[place] : nullptr;
+}
+
 double Judgment::number_of(const FormQuestion& question, const std::string& given) {
   if (question.kind != QuestionKind::choice) return std::strtod(given.c_str(), nullptr);
   const auto chosen = std::ranges::find(question.choices, given, &AnswerChoice::value);
@@ -205,11 +180,8 @@ void Judgment::Trial::take(const Action& action) {
 }
 
 std::string Judgment::Trial::answer() const {
-  const auto& choices = offer_.question.choices;
-  const auto points = scale(offer_.question).points;
-  const auto place = std::ranges::find(points, *result_.value) - points.begin();
-  return place < std::ssize(points) ? choices[static_cast<std::size_t>(place)].value
-                                    : fmt::format("{}", *result_.value);
+  const AnswerChoice* choice = choice_of(offer_.question, *result_.value);
+  return choice ? choice->value : fmt::format("{}", *result_.value);
 }
 
 std::optional<int> Judgment::Trial::n_answers() const {
@@ -219,11 +191,24 @@ std::optional<int> Judgment::Trial::n_answers() const {
   return static_cast<int>(question.choices.size());
 }
 
+namespace {
+std::optional<Answer> simulated_response(const Judgment::Offer& offer, const Percepts& percepts) {
+  const std::vector<double>& felt_mm = percepts.remembered_mm;
+  if (felt_mm.size() == 1)
+    return meant(offer,
+                 {felt_fraction(felt_mm.front()) > 0.5 ? Meaning::positive : Meaning::negative});
+  const Meaning heavier = heaviest_slot(felt_mm, {}) == 1 ? Meaning::left : Meaning::right;
+  return percepts.differ ? meant(offer, {Meaning::positive, heavier})
+                         : meant(offer, {Meaning::negative, Meaning::none, heavier});
+}
+}  // namespace
+
 Answer Judgment::simulated(const Offer& offer, const Percepts& percepts, RandomStream& stream) {
   const std::vector<double>& felt_mm = percepts.remembered_mm;
   const AnswerScale its = scale(offer.question);
   if (percepts.lapse) return judged(its.any(felt_mm.front()));
   const auto [smallest, largest] = std::ranges::minmax(felt_mm);
+  if (const auto response = simulated_response(offer, percepts)) return *response;
   if (asks_for_number(offer.question))
     return judged(its.at(felt_fraction(felt_mm.size() > 1 ? largest - smallest : largest)));
   if (felt_mm.size() > 1 && offer.question.choices.size() == felt_mm.size())
@@ -231,7 +216,10 @@ Answer Judgment::simulated(const Offer& offer, const Percepts& percepts, RandomS
   return judged(its.any(stream.uniform()));
 }
 
-Answer Judgment::blind(const Offer& offer, const WithoutPercepts&, RandomStream& stream) {
+Answer Judgment::blind(const Offer& offer, const WithoutPercepts& known, RandomStream& stream) {
+  const auto answer = known.differ ? meant(offer, {Meaning::positive})
+                                   : meant(offer, {Meaning::negative, Meaning::none});
+  if (answer) return *answer;
   return judged(scale(offer.question).any(stream.uniform()));
 }
 

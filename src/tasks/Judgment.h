@@ -1,6 +1,9 @@
 // Judgment: a task as data. A trial shows the cubes that the protocol gives and asks one question
 // of a questionnaire file; the answer is logged as a number.
 //
+// The cubes are sets of given masses, or a procedure sets the mass: of a single cube, or of a
+// comparison beside a reference. Then the choices of the question are its responses.
+//
 // Magnitude estimation (tasks/Estimation.h) is the case of one cube, with the scales and the
 // modulus that the program brings along. What both share is declared here.
 #pragma once
@@ -13,6 +16,7 @@
 #include "base/Random.h"
 #include "experiment/ScreenTexts.h"
 #include "tasks/BlockKeys.h"
+#include "tasks/Staircases.h"
 #include "tasks/Task.h"
 #include "tasks/TaskRun.h"
 
@@ -62,6 +66,20 @@ struct PlannedCubes {
 std::vector<PlannedCubes> shuffled(const std::vector<CubeSet>& sets,
                                    const std::vector<TechniqueTrials>& trials, RandomStream stream);
 
+/// What a choice responds to a procedure: yes or no, or the cube that is heavier; none: neither.
+enum class Meaning { positive, negative, left, right, none };
+template <>
+struct EnumNames<Meaning> {
+  static constexpr std::array<std::string_view, 5> names{"positive", "negative", "left", "right",
+                                                         "none"};
+};
+
+/// Of each choice, by its value.
+using Meanings = std::vector<std::pair<std::string, Meaning>>;
+
+/// @param choice null: no answer  @return none: it has no meaning
+std::optional<Meaning> meaning_of(const Meanings& responses, const AnswerChoice* choice);
+
 struct Judgment {
   static constexpr std::array actions{ActionSpec{.kind = "judge", .value = true}};
   /// "chosen": the value is a place among the choices, from 1.
@@ -81,48 +99,83 @@ struct Judgment {
     std::vector<double> table_friction;  ///< of each; empty: the protocol's friction
     int cubes = 0;                       ///< of a trial; 0: all
     std::vector<TechniqueTrials> trials{{spring_technique, 1}};  ///< of each set of cubes
-    std::string asks;                                            ///< QUESTIONNAIRE.QUESTION
+    std::string condition = spring_technique;                    ///< of staircases
+    InterleaveConfig interleaving;
+    /// Instead of masses_g: all with a reference, or all of single cubes, whose levels are masses.
+    std::vector<ReferenceStaircase> staircases;
+    Meanings responses;  ///< of the question's choices to them
+    std::string asks;    ///< QUESTIONNAIRE.QUESTION
     /// That question, in the session's language; none: not read yet.
     std::optional<FormQuestion> question;
 
     template <typename Visit>
     void visit_keys(Visit&& visit) {
-      visit(ConfigKey{"masses_g", "of the cubes, in g", true}, masses_g, above_zero);
+      visit(ConfigKey{"question", "NAME.KEY", true}, asks);
+      visit(ConfigKey{"responses", "of its choices to the staircases"}, responses);
+      visit(ConfigKey{"staircase", "a procedure, with a reference or without"},
+            StaircasesOf{*this});
+      visit(ConfigKey{"masses_g", "of the cubes, in g", staircases.empty()}, masses_g, above_zero);
+      if (staircases.empty()) return visit_sets(visit);
+      visit(ConfigKey{"condition", "technique"}, ByTechnique{condition});
+      visit(ConfigKey{"interleave", "order of staircases"}, interleaving);
+    }
+    template <typename Visit>
+    void visit_sets(Visit&& visit) {
       visit(table_friction_key, table_friction, zero_or_more);
       visit(ConfigKey{"cubes", "of a trial: all sets of so many; default: all cubes"}, cubes,
             WholeRange{1, FrameRow::most_cubes});
       visit(ConfigKey{"trials", "of each set of cubes"}, TrialsOfEach{trials, "trials"});
-      visit(ConfigKey{"question", "NAME.KEY", true}, asks);
     }
     /// The different sets of `cubes` cubes; none if there are more than a block has trials.
     std::vector<CubeSet> sets() const;
-    double expected_trials() const { return static_cast<double>(sets().size()) * total_of(trials); }
-    int most_cubes() const { return cubes > 0 ? cubes : static_cast<int>(masses_g.size()); }
+    double expected_trials() const;
+    bool depends_on_answers() const { return depend_on_answers(staircases); }
+    bool has_reference() const { return !staircases.empty() && staircases[0].reference_g > 0; }
+    int most_cubes() const;
+    /// Every choice is one of two cubes.
+    bool is_forced() const;
+    StaircaseRules staircase_rules() const;
+    /// Of a completed trial to its staircase.
+    Response response_in(const TrialRow& row) const;
     ConfigMistakes check() const;
     std::vector<std::pair<std::string, std::string>> choices() const;
     std::optional<std::string> questionnaire() const;
     void read_question(const std::map<std::string, Questionnaire>& questionnaires) {
       question = find_question(questionnaires, asks);
     }
+    /// Why the question does not suit the block; none: it does, or is not read yet.
+    std::optional<std::string> mistake_in_question() const;
+
+   private:
+    ConfigMistakes mistakes_in_sets() const;
+    ConfigMistakes mistakes_in_responses() const;
   };
 
   struct Offer {
     FormQuestion question;
+    Meanings responses = {};  ///< empty: to no procedure
   };
 
   class Run : public TaskRun {
    public:
     Run(const Block& block, std::uint64_t seed)
-        : name_(block.name),
+        : block_(block),
           order_(shuffled(block.sets(), block.trials,
-                          RandomStream(seed, "judgment order/" + block.name))) {}
+                          RandomStream(seed, "judgment order/" + block.name))),
+          staircases_(block.staircases, block.interleaving) {}
     TrialPlan plan(const TrialKey& key) const override;
-    bool finished() const override { return n_completed_ >= order_.size(); }
-    void complete(const TrialRow&, Changes&) override { ++n_completed_; }
+    bool finished() const override {
+      return n_completed_ >= order_.size() && staircases_.finished();
+    }
+    void complete(const TrialRow& row, Changes& changes) override;
+    std::optional<std::string> survivor() const override { return staircases_.survivor(); }
 
    private:
-    std::string name_;
-    std::vector<PlannedCubes> order_;
+    TrialPlan plan_of_staircase(const TrialKey& key) const;
+
+    Block block_;
+    std::vector<PlannedCubes> order_;  // empty with staircases
+    RunningStaircases staircases_;
     std::size_t n_completed_ = 0;
   };
 
@@ -130,7 +183,7 @@ struct Judgment {
    public:
     Trial(const Block& block, const TrialPlan& plan, std::uint64_t)
         : TaskTrial(task, plan),
-          offer_{block.question.value_or(FormQuestion{})},
+          offer_{block.question.value_or(FormQuestion{}), block.responses},
           is_known_(block.question.has_value()) {}
     std::optional<std::string> refusal(const Action& action) const override;
     void take(const Action& action) override;
@@ -147,12 +200,16 @@ struct Judgment {
   static bool asks_for_number(const FormQuestion& question);
   /// The scale of its answers: choices have their values as numbers, otherwise their places.
   static AnswerScale scale(const FormQuestion& question);
+  /// The choice of an answer; null: it is none.
+  static const AnswerChoice* choice_of(const FormQuestion& question, double value);
   /// The number of an answer as the screen gives it.
   static double number_of(const FormQuestion& question, const std::string& given);
 
   /// A number, or a point of a scale, is the heaviness of one cube, or the difference between the
   /// lightest and the heaviest, both by felt_fraction(). A choice with one answer for each cube is
-  /// the heaviest cube; of other choices one is random.
+  /// the heaviest cube; of other choices one is random. Where choices are responses, "left" and
+  /// "right" are the heavier cube, "none" and "negative" that two cubes do not differ; a single
+  /// cube is "positive" in the upper half of felt_fraction().
   static Answer simulated(const Offer& offer, const Percepts& percepts, RandomStream& stream);
   static Answer blind(const Offer& offer, const WithoutPercepts&, RandomStream& stream);
   static std::vector<ScreenState> fullest_screens();

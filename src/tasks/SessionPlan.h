@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@
 
 #include "experiment/ScreenTexts.h"
 #include "tasks/Practice.h"
+#include "tasks/Staircases.h"
 #include "tasks/TaskRun.h"
 
 namespace heft {
@@ -83,6 +85,10 @@ class TaskBlock {
   /// The questionnaire whose question its trials ask; none: they ask none.
   std::optional<std::string> questionnaire() const { return of_task_->questionnaire(); }
   bool lacks_question() const { return of_task_->lacks_question(); }
+  /// Why the question does not suit the block; none: it does.
+  std::optional<std::string> mistake_in_question() const { return of_task_->mistake_in_question(); }
+  /// Its procedures; empty: it has none.
+  std::span<const ReferenceStaircase> staircases() const { return of_task_->staircases(); }
   /// Which of the task's wordings its instructions have; empty: the usual one.
   std::string_view wording() const { return of_task_->wording(); }
   /// Names and values of its design choices, for reports.
@@ -134,6 +140,8 @@ class TaskBlock {
     virtual std::unique_ptr<TaskTrial> trial(const TrialPlan& plan, std::uint64_t seed) const = 0;
     virtual std::optional<std::string> questionnaire() const = 0;
     virtual bool lacks_question() const = 0;
+    virtual std::optional<std::string> mistake_in_question() const = 0;
+    virtual std::span<const ReferenceStaircase> staircases() const = 0;
     virtual std::string_view wording() const = 0;
     virtual std::vector<std::pair<std::string, std::string>> choices() const = 0;
     virtual double expected_trials() const = 0;
@@ -170,6 +178,14 @@ class TaskBlock {
     bool lacks_question() const override {
       if constexpr (AsksQuestion<Block>) return block.questionnaire() && !block.question;
       return false;
+    }
+    std::optional<std::string> mistake_in_question() const override {
+      if constexpr (requires { block.mistake_in_question(); }) return block.mistake_in_question();
+      return std::nullopt;
+    }
+    std::span<const ReferenceStaircase> staircases() const override {
+      if constexpr (requires { block.staircases; }) return block.staircases;
+      return {};
     }
     std::string_view wording() const override {
       if constexpr (requires { block.wording(); }) return block.wording();

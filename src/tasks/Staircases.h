@@ -18,14 +18,16 @@ namespace heft {
 
 /// A procedure of a block, and its reference.
 struct ReferenceStaircase {
-  double reference_g = 0;
+  double reference_g = 0;   ///< 0: none, the level is a mass
   Procedure staircase;      ///< before its first trial; levels in g: comparison - reference
   std::string condition{};  ///< technique; empty: the block's
 };
 
 /// What the answers of a block demand of its procedures.
 struct StaircaseRules {
-  bool either_sign = false;       ///< the comparison may be lighter
+  enum class Reference { required, optional };
+  Reference reference = Reference::required;
+  bool either_sign = false;             ///< the comparison may be lighter
   std::string_view no_cube = {};  ///< the key by which answers name no cube; empty: they name one
 };
 

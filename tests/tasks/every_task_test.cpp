@@ -30,8 +30,26 @@ bool has_task(const Protocol& protocol, std::string_view task) {
   });
 }
 
-// The shortest shipped protocol with the task.
-Protocol protocol_with(std::string_view task) {
+/// A task, and the shipped protocol that shows it; empty: the shortest one.
+struct Shown {
+  std::string_view task, file = {};
+};
+
+// Of the list, and tasks in another form.
+std::vector<Shown> shown_tasks() {
+  std::vector<Shown> all;
+  for (const std::string_view task : words_of<Task>()) all.push_back({task});
+  all.push_back({"judgment", "judgment_staircase"});
+  return all;
+}
+
+void PrintTo(const Shown& shown, std::ostream* out) {
+  *out << shown.task << ' ' << shown.file;
+}
+
+Protocol protocol_with(const Shown& shown) {
+  const std::string_view task = shown.task;
+  if (!shown.file.empty()) return testing::shipped_protocol(fmt::format("examples/{}", shown.file));
   for (const char* file : {"quick", "examples/estimation"})
     if (Protocol found = testing::shipped_protocol(file); has_task(found, task)) return found;
   for (const char* folder : {"/protocols", "/protocols/examples"})
@@ -44,7 +62,7 @@ Protocol protocol_with(std::string_view task) {
   throw Error("no protocol in protocols/ or protocols/examples/ shows this task");
 }
 
-class EveryTask : public ::testing::TestWithParam<std::string_view> {
+class EveryTask : public ::testing::TestWithParam<Shown> {
  protected:
   ~EveryTask() override {
     for (const char* end : {"", "-wal", "-shm", "-lock"}) fs::remove(log_ + end);
@@ -57,6 +75,8 @@ class EveryTask : public ::testing::TestWithParam<std::string_view> {
   }
 
   void continue_after_kill(const std::string& responder);
+
+  std::string_view task() const { return GetParam().task; }
 
   Protocol protocol_ = protocol_with(GetParam());
   std::string log_ =
@@ -72,7 +92,7 @@ TEST_P(EveryTask, IsSimulatedReplayedJudgedAndExported) {
     const StoredSession stored(protocol_, responder, 5);
     int n = 0;
     for (const TrialRow& trial : stored.reader().trials(stored.id()))
-      if (trial.plan.task == GetParam() && trial.status == TrialStatus::completed) ++n;
+      if (trial.plan.task == task() && trial.status == TrialStatus::completed) ++n;
     EXPECT_GT(n, 0);
     expect_verified(stored.reader(), stored.id());
 
@@ -86,7 +106,7 @@ TEST_P(EveryTask, IsSimulatedReplayedJudgedAndExported) {
               stored.n_completed());
     EXPECT_EQ(judgments.trials.empty(), !touches) << "the others touch no cube";
     const auto of_task =
-        std::ranges::count(judgments.trials, GetParam(),
+        std::ranges::count(judgments.trials, task(),
                            [](const JudgedTrial& trial) -> std::string_view { return trial.task; });
     const bool all_scored = touches && n_left_out(is_a_number) == 0;
     EXPECT_EQ(of_task, all_scored ? n : 0);
@@ -94,9 +114,9 @@ TEST_P(EveryTask, IsSimulatedReplayedJudgedAndExported) {
     if (responder != "simulated") continue;
     export_logs({{stored.session().db}, ExportFormat::csv, folder_}, [](double) {});
     EXPECT_THAT(read_text_file(folder_ + "/trials.csv"),
-                ::testing::HasSubstr(',' + std::string(GetParam()) + ','));
+                ::testing::HasSubstr(',' + std::string(task()) + ','));
     const std::string dictionary = read_text_file(folder_ + "/dictionary.csv");
-    for (const std::string_view outcome : task_named(GetParam()).outcomes)
+    for (const std::string_view outcome : task_named(task()).outcomes)
       EXPECT_THAT(dictionary, ::testing::HasSubstr(std::string(outcome)));
   }
 }
@@ -127,7 +147,7 @@ void EveryTask::continue_after_kill(const std::string& responder) {
   const auto in_task = [&](const RecordedEntry& entry) {
     const auto* recorded = std::get_if<RecordedEvent>(&entry);
     return recorded && recorded->event.as<CubesShown>() && recorded->changes.trial &&
-           recorded->changes.trial->plan.task == GetParam();
+           recorded->changes.trial->plan.task == task();
   };
   const auto cut = std::ranges::find_if(entries, in_task);
   ASSERT_NE(cut, entries.end());
@@ -188,7 +208,7 @@ TEST_P(EveryTask, IsPresentedAgainAfterVeto) {
       continue;
     }
     const TrialRow answered = *run_trial().trial;
-    if (answered.plan.task != GetParam()) continue;
+    if (answered.plan.task != task()) continue;
     const int n_completed = engine.n_completed();
     const TrialRow vetoed = *tell(AnswerVetoed{"by mistake"}).trial;
     EXPECT_EQ(vetoed.attempt_index, answered.attempt_index);
@@ -204,8 +224,11 @@ TEST_P(EveryTask, IsPresentedAgainAfterVeto) {
   EXPECT_EQ(n_presented, n_vetoed);
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, EveryTask, ::testing::ValuesIn(words_of<Task>()),
-                         [](const auto& task) { return std::string(task.param); });
+INSTANTIATE_TEST_SUITE_P(Each, EveryTask, ::testing::ValuesIn(shown_tasks()),
+                         [](const auto& shown) {
+                           return std::string(shown.param.file.empty() ? shown.param.task
+                                                                       : shown.param.file);
+                         });
 
 std::vector<TrialRow> comparisons_in(const StoredSession& stored) {
   std::vector<TrialRow> completed = stored.reader().trials(stored.id());

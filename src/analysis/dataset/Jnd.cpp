@@ -7,25 +7,31 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <variant>
 
 #include "analysis/dataset/Dataset.h"
 #include "protocol/Protocol.h"
 #include "protocol/toml/TomlDocument.h"
 #include "psychophysics/ProcedureKinds.h"
 #include "tasks/Comparison.h"
+#include "tasks/Judgment.h"
 
 namespace heft {
 
 namespace {
 // What each of a session's staircases that estimate a JND compared with, from its trials. One that
 // did not finish has not logged its method: most likely it is the paper's.
-std::map<std::string, Compared> compared_by(const SessionData& data) {
+std::map<std::string, Compared> compared_by(const SessionData& data, std::string_view task) {
   std::map<std::string, Compared> staircases;
+  const bool is_judgment = task == Judgment::task.name;
   for (const Attempt& attempt : data.attempts) {
     const TrialPlan& plan = attempt.trial.plan;
-    if (plan.task == "comparison" && !plan.staircase.empty() && plan.reference_g &&
-        !data.without_jnd.contains(plan.staircase))
-      staircases.emplace(plan.staircase, Compared{*plan.reference_g, plan.condition});
+    if (plan.task != task || plan.staircase.empty() || !(plan.reference_g || is_judgment) ||
+        data.without_jnd.contains(plan.staircase))
+      continue;
+    Compared compared{plan.reference_g.value_or(0), plan.condition};
+    if (is_judgment) compared.block = plan.block;
+    staircases.emplace(plan.staircase, std::move(compared));
   }
   for (auto row = data.estimates.rbegin(); row != data.estimates.rend(); ++row)  // keeps the first
     if (const auto found = staircases.find(row->staircase); found != staircases.end())
@@ -106,8 +112,8 @@ void judge(StaircaseResult& result, const EstimateRow& row, const Course& course
     result.shown_g = result.jnd_g.value_or(above ? course.highest() : course.lowest());
 }
 
-std::vector<StaircaseResult> results_of(const SessionData& data) {
-  const auto staircases = compared_by(data);
+std::vector<StaircaseResult> results_of(const SessionData& data, std::string_view task) {
+  const auto staircases = compared_by(data, task);
   auto courses = courses_of(data);
   std::vector<StaircaseResult> results;
   for (const EstimateRow& row : data.estimates) {
@@ -228,14 +234,29 @@ std::optional<CensoredValue> censored_value(const StaircaseResult& result) {
   return CensoredValue{*result.shown_g, result.censored};
 }
 
+namespace {
+// Of a forced choice only where the comparison is never the lighter one: otherwise the answers are
+// equally frequent at the point of equality, not at a difference.
+bool estimates_jnd(const TaskBlock& block, const Procedure& procedure) {
+  if (!ProcedureKinds::estimates_level(procedure)) return false;
+  const auto* comparison = block.as<Comparison::Block>();
+  if (comparison) return comparison->has_three_answers();
+  const auto* judgment = block.as<Judgment::Block>();
+  if (!judgment || !judgment->is_forced()) return true;
+  const UpDown* up_down = procedure.get_if<UpDown>();
+  const auto levels_g = procedure.planned_levels();
+  return std::ranges::none_of(levels_g, [](double level_g) { return level_g < 0; }) &&
+         !(up_down && up_down->config().floor.value_or(0) < 0);
+}
+}  // namespace
+
 std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
   std::set<std::string> names;
   try {
     for (const Block& block : parse_protocol(protocol_text, "protocol").blocks)
-      if (const auto* comparison = block_as<Comparison::Block>(block))
-        for (const ReferenceStaircase& entry : comparison->staircases)
-          if (!comparison->has_three_answers() || !ProcedureKinds::estimates_level(entry.staircase))
-            names.insert(entry.staircase.name());
+      if (const auto* trials = std::get_if<TaskBlock>(&block))
+        for (const ReferenceStaircase& entry : trials->staircases())
+          if (!estimates_jnd(*trials, entry.staircase)) names.insert(entry.staircase.name());
   } catch (const InvalidFile&) {
   }
   return names;
@@ -254,11 +275,11 @@ void StaircaseFold::add_starts(const std::string& participant,
 
 void StaircaseFold::add(const SessionData& data) {
   const std::string participant = data.participant();
-  for (const auto& [staircase, compared] : compared_by(data)) {
+  for (const auto& [staircase, compared] : compared_by(data, task_)) {
     began_[compared][participant][data.session.session_id] += 1;
     comparable_[compared].add(data.published_condition(compared.condition), true);
   }
-  std::vector<StaircaseResult> of_session = results_of(data);
+  std::vector<StaircaseResult> of_session = results_of(data, task_);
   add_starts(participant, of_session);
   std::ranges::move(of_session, std::back_inserter(results_));
 }
@@ -269,7 +290,7 @@ std::vector<ReferenceJnd> StaircaseFold::jnds() const {
   std::vector<ReferenceJnd> jnds;
   for (const auto& [compared, participants] : began_) {
     jnds.push_back(jnd_at(compared, finished[compared], participants));
-    if (compared.method == jnd_method &&
+    if (compared.method == jnd_method && compared.block.empty() &&
         comparable_.at(compared).condition() == published::Condition::decoupled)
       jnds.back().published = published::jnd_at(compared.reference_g);
     if (const auto starts = starts_.find(compared); starts != starts_.end())

@@ -9,6 +9,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/dataset/Dataset.h"
@@ -23,9 +24,10 @@ inline constexpr std::string_view jnd_method = "mean_of_reversals";
 /// Reference, condition and JND method (the first of the procedure's) of a staircase. Ordered by
 /// reference.
 struct Compared {
-  double reference_g = 0;
+  double reference_g = 0;  ///< 0: none, single cubes were judged
   std::string condition;
   std::string method{jnd_method};
+  std::string block{};  ///< of a judgment; empty: a comparison
 
   auto operator<=>(const Compared&) const = default;
 };
@@ -123,9 +125,10 @@ struct ReferenceJnd {
 /// protocol.
 std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
 
-/// Collects the sessions' staircases.
+/// Collects the sessions' staircases of one task.
 class StaircaseFold {
  public:
+  explicit StaircaseFold(std::string_view task = "comparison") : task_(task) {}
   void add(const SessionData& data);
 
   /// Finished staircases in the order of sessions and estimates, each with the reference of its
@@ -144,6 +147,7 @@ class StaircaseFold {
  private:
   void add_starts(const std::string& participant, std::span<const StaircaseResult> of_session);
 
+  std::string task_;
   std::deque<StaircaseResult> results_;
   std::map<Compared, Began> began_;
   std::map<Compared, published::Comparable> comparable_;

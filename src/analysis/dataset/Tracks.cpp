@@ -16,8 +16,8 @@ std::vector<Track> tracks_of(const SessionData& data) {
   std::vector<Track> tracks;
   for (const Attempt& attempt : data.attempts) {
     const TrialPlan& plan = attempt.trial.plan;
-    if (!attempt.completed() || plan.staircase.empty() || !plan.reference_g || !plan.level_g ||
-        data.without_jnd.contains(plan.staircase))
+    if (!attempt.completed() || plan.task != "comparison" || plan.staircase.empty() ||
+        !plan.reference_g || !plan.level_g || data.without_jnd.contains(plan.staircase))
       continue;
     track_of(tracks, plan)
         .points.push_back({*plan.level_g,

@@ -15,17 +15,29 @@ std::shared_ptr<Section> choice_section();
 std::shared_ptr<Section> curve_section();
 std::shared_ptr<Section> estimation_section();
 std::shared_ptr<Section> judgment_section();
+std::shared_ptr<Section> judgment_threshold_section();
 std::shared_ptr<Section> adjustment_section();
 std::shared_ptr<Section> forced_choice_section();
 std::shared_ptr<Section> same_different_section();
 
 // Those first that hold most of each participant, as sections let go of it one after the other.
 std::vector<std::shared_ptr<Section>> all_sections() {
-  return {timing_section(),     lag_section(),           tracking_section(),
-          sorting_section(),    introduction_section(),  sensitivity_section(),
-          lab_section(),        staircase_section(),     choice_section(),
-          curve_section(),      estimation_section(),    judgment_section(),
-          adjustment_section(), forced_choice_section(), same_different_section()};
+  return {timing_section(),
+          lag_section(),
+          tracking_section(),
+          sorting_section(),
+          introduction_section(),
+          sensitivity_section(),
+          lab_section(),
+          staircase_section(),
+          choice_section(),
+          curve_section(),
+          estimation_section(),
+          judgment_section(),
+          judgment_threshold_section(),
+          adjustment_section(),
+          forced_choice_section(),
+          same_different_section()};
 }
 
 }  // namespace heft

@@ -55,7 +55,7 @@ std::string in_words(const Estimation::Block& block) {
   return text;
 }
 
-std::string in_words(const Judgment::Block& block) {
+std::string in_words_of_sets(const Judgment::Block& block) {
   const int n = block.most_cubes();
   return fmt::format(
       "They answered a question ({}) about {} of {} g in each trial ({} for each {}, in random "
@@ -110,6 +110,32 @@ std::string other_kind(const Procedure& procedure, Citations& citations) {
   if (procedure.get_if<QuestPlus>()) return citations.cite(Source::quest_plus) + ": " + settings;
   if (procedure.get_if<Psi>()) return citations.cite(Source::psi) + ": " + settings;
   return settings;
+}
+
+// What set the mass in a judgment's trials.
+std::string by_procedure(const ReferenceStaircase& one, Citations& citations) {
+  std::string text = one.reference_g > 0 ? fmt::format("at {:g} g ", one.reference_g) : "";
+  if (const UpDown* up_down = one.staircase.get_if<UpDown>())
+    text +=
+        fmt::format("by an up-down staircase ({}), {}: {}",
+                    citations.cite(up_down->config().steps_up.empty() ? Source::up_down
+                                                                      : Source::weighted_up_down),
+                    up_down->config().course("g"), ProcedureKinds::described(one.staircase));
+  else
+    text += "by " + other_kind(one.staircase, citations);
+  return one.condition.empty() ? text : text + " (in " + one.condition + ")";
+}
+
+std::string in_words(const Judgment::Block& block, Citations& citations) {
+  if (block.staircases.empty()) return in_words_of_sets(block);
+  std::vector<std::string> each;
+  for (const ReferenceStaircase& one : block.staircases)
+    each.push_back(by_procedure(one, citations));
+  return fmt::format(
+      "They answered a question ({}) about {} in {}. The {} was set {}.", block.asks,
+      block.has_reference() ? "a reference and a comparison on random sides" : "one cube",
+      block.condition, block.has_reference() ? "difference in mass" : "mass",
+      fmt::join(each, "; "));
 }
 
 std::string course_of(const ReferenceStaircase& one, const UpDownConfig& config) {
@@ -192,7 +218,7 @@ struct InWords {
     if (const auto* introduction = block.as<Introduction::Block>()) return in_words(*introduction);
     if (const auto* sorting = block.as<Sorting::Block>()) return in_words(*sorting);
     if (const auto* estimation = block.as<Estimation::Block>()) return in_words(*estimation);
-    if (const auto* judgment = block.as<Judgment::Block>()) return in_words(*judgment);
+    if (const auto* judgment = block.as<Judgment::Block>()) return in_words(*judgment, citations);
     if (const auto* adjustment = block.as<Adjustment::Block>()) return in_words(*adjustment);
     if (const auto* comparison = block.as<Comparison::Block>())
       return in_words(*comparison, citations);

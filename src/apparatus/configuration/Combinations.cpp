@@ -84,12 +84,17 @@ void require_answerable(const ResolvedConfig::Parts& parts, const Protocol& prot
 }
 
 void require_questions(const Protocol& protocol) {
-  for (const Block& block : protocol.blocks)
-    if (const auto* trials = std::get_if<TaskBlock>(&block); trials && trials->lacks_question())
+  for (const Block& block : protocol.blocks) {
+    const auto* trials = std::get_if<TaskBlock>(&block);
+    if (trials && trials->lacks_question())
       throw Error(fmt::format("block {} asks a question of the questionnaire {} that the session's "
                               "texts lack; expected one that is answered on the screen",
                               trials->name(), *trials->questionnaire()),
                   ExitCode::invalid_file);
+    const auto mistake = trials ? trials->mistake_in_question() : std::nullopt;
+    if (mistake)
+      throw Error(fmt::format("block {}: {}", trials->name(), *mistake), ExitCode::invalid_file);
+  }
 }
 
 }  // namespace heft

@@ -110,6 +110,11 @@ void check_questions(Protocol protocol, const std::string& protocol_file, const 
                        trials->name(), name, file)});
       continue;
     }
+    if (const auto mistake = trials->mistake_in_question()) {
+      faults.mistakes.push_back({place_of_question(name, protocol.text, protocol_file),
+                                 fmt::format("block {}: {}", trials->name(), *mistake)});
+      continue;
+    }
     const auto trial = trials->trial(trials->run(0)->plan({}), 0);
     for (const std::string& sentence :
          texts_that_do_not_fit(words.texts, screen, {screen_of(*trial)}))

@@ -120,6 +120,15 @@ class KeyReader {
     if (is_good) field = keys;
   }
 
+  // responses = { yes = "positive", no = "negative" }
+  void read(std::string_view key, Meanings& meanings) {
+    auto table = table_.table(key);
+    if (!table) return;
+    for (const std::string& value : table->keys())
+      if (const auto name = table->read_nearest_name(value, EnumNames<Meaning>::names))
+        meanings.emplace_back(value, *named<Meaning>(*name));
+    table->close();
+  }
   void read(std::string_view, ByTechnique<std::string>& field) {
     names_.techniques.read(table_, field.name);
   }

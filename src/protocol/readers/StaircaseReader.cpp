@@ -47,6 +47,43 @@ bool needs_choice(const Settings& settings) {
       settings);
 }
 
+const std::vector<double>& values_of(const std::vector<double>& levels) {
+  return levels;
+}
+const std::vector<double>& values_of(const ValueGrid& levels) {
+  return levels.values;
+}
+
+// Settings that do not suit levels that are masses of a single cube.
+template <typename Config>
+ConfigMistakes mistakes_in_masses(const Config& config) {
+  constexpr auto expected = "above 0: the level is the mass of the cube";
+  ConfigMistakes mistakes;
+  const auto check = [&](std::string_view key, double value, std::optional<std::size_t> index) {
+    if (value <= 0)
+      mistakes.push_back({{key}, fmt::format("{} has {}", key, value), expected, index});
+  };
+  bool has_limit = false;
+  if constexpr (requires { config.levels; }) {
+    has_limit = true;
+    for (std::size_t i = 0; i < values_of(config.levels).size(); ++i)
+      check("levels", values_of(config.levels)[i], i);
+  }
+  if constexpr (requires { config.step_scale; })
+    has_limit = has_limit || config.step_scale != StepScale::linear;
+  if constexpr (requires { *config.floor; }) {
+    if (!config.floor && !has_limit) mistakes.push_back({{"floor"}, "lacks \"floor\"", expected});
+    if (config.floor && !has_limit) check("floor", *config.floor, std::nullopt);
+  }
+  if constexpr (requires { config.scale; })
+    if (config.scale != LevelScale::linear)
+      mistakes.push_back({{"scale"},
+                          fmt::format("scale is \"{}\"", name_of(config.scale)),
+                          "\"linear\": levels are in g"});
+  if constexpr (requires { *config.start; })
+    if (config.start) check("start", *config.start, std::nullopt);
+  return mistakes;
+}
 }  // namespace
 
 std::vector<ReferenceStaircase> read_staircases_of(TableReader& table,
@@ -57,7 +94,7 @@ std::vector<ReferenceStaircase> read_staircases_of(TableReader& table,
   std::string condition;
   bool paired = false;
   std::optional<double> start_below;
-  table.require({"reference_g"});
+  if (rules.reference == StaircaseRules::Reference::required) table.require({"reference_g"});
   table.read("reference_g", reference_g, above_zero);
   techniques.read(table, condition);
   table.read("paired", paired);
@@ -67,9 +104,12 @@ std::vector<ReferenceStaircase> read_staircases_of(TableReader& table,
                   "start_below requires paired = true, which makes a second "
                   "staircase that starts there");
   const auto settings = read_staircase(table);
-  if (!settings) return {};
+  if (!settings) return {{reference_g, StaircaseSettings{}.procedure(), condition}};
   if (table.has("reference_g") && table.good({"reference_g"}))
     check_beside(table, *settings, reference_g, rules.either_sign);
+  if (!table.has("reference_g") && rules.reference == StaircaseRules::Reference::optional)
+    table.note(std::visit([](const auto& config) { return mistakes_in_masses(config); },
+                          settings->config));
   if (!rules.no_cube.empty() && needs_choice(settings->config))
     table.mistake("function", fmt::format("function is \"indecision\" with {}, expected another: "
                                           "this one needs to know which cube is heavier",

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "responders/decision/Decision.h"
-#include "tasks/Comparison.h"
 #include "tasks/SessionPlan.h"
 
 namespace heft {
@@ -21,11 +20,10 @@ bool is_of(const ReferenceStaircase& staircase, const TrialPlan& plan) {
 
 TrialTruth truth_of(const SessionPlan& session, const TrialPlan& plan) {
   TrialTruth truth{plan.masses_g, plan.level_g, {}};
-  const auto* block = task_block(session, plan.block).as<Comparison::Block>();
-  if (!block) return truth;
+  const auto staircases = task_block(session, plan.block).staircases();
   const auto found = std::ranges::find_if(
-      block->staircases, [&](const ReferenceStaircase& one) { return is_of(one, plan); });
-  if (found == block->staircases.end()) return truth;
+      staircases, [&](const ReferenceStaircase& one) { return is_of(one, plan); });
+  if (found == staircases.end()) return truth;
   const std::vector<double> levels_g = found->staircase.planned_levels();
   if (!levels_g.empty()) truth.start_g = std::ranges::max(levels_g);
   return truth;

@@ -1,0 +1,137 @@
+// Thresholds of judgments: the level that a procedure found for the answers to a question.
+#include <fmt/format.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "analysis/measures/Section.h"
+#include "analysis/report/Notes.h"
+
+namespace heft {
+
+namespace {
+constexpr Measure threshold{
+    "judgment_threshold", "g", "threshold of judgments",
+    "level that the procedure of a judgment found: of a single cube its mass, otherwise the "
+    "difference from the reference; log-normal mean over participants"};
+constexpr Measure n_censored{"judgment_threshold_n_censored", "", "censored",
+                             "participants whose threshold is only known to lie above or below"};
+constexpr Measure n_missing{"judgment_threshold_n_missing", "", "missing",
+                            "participants without a threshold"};
+
+class JudgmentThresholdSection final : public Section {
+ public:
+  void add(const SessionData& data) override {
+    staircases_.add(data);
+    for (const auto& [block, question] : data.questions) questions_[block] = question.key;
+  }
+
+  void put(Summary& summary) override {
+    jnds_ = staircases_.jnds();
+    for (const ReferenceJnd& row : jnds_) {
+      const Jnds& jnds = row.overall;
+      StudyEstimate mean = at(threshold, row.compared);
+      mean.value = jnds.mean;
+      mean.sd = jnds.sd;
+      mean.set(jnds.interval);
+      mean.n = jnds.n();
+      if (jnds.kind != MeanKind::none) mean.method = name_of(jnds.kind);
+      summary.estimates.push_back(std::move(mean));
+      const auto put_number = [&](const Measure& measure, std::size_t n) {
+        summary.estimates.push_back(at(measure, row.compared));
+        summary.estimates.back().value = static_cast<double>(n);
+      };
+      put_number(n_censored, static_cast<std::size_t>(jnds.n_censored(Censored::above) +
+                                                      jnds.n_censored(Censored::below)));
+      put_number(n_missing, jnds.missing.size());
+    }
+  }
+
+  Estimates of_participants(const Summary&) const override {
+    Estimates all;
+    for (const ReferenceJnd& row : jnds_) {
+      for (const ParticipantJnd& one : row.overall.participants) {
+        StudyEstimate& own = all.emplace_back(at(threshold, row.compared));
+        own.participant = one.participant;
+        own.value = one.jnd_g;
+        own.censored = one.censored;
+        own.n = 1;
+      }
+      for (const std::string& participant : row.overall.missing) {
+        all.push_back(at(threshold, row.compared));
+        all.back().participant = participant;
+        all.back().why = "indeterminate";
+      }
+    }
+    return all;
+  }
+
+  std::vector<std::string> findings(const Summary& summary) const override {
+    std::vector<std::string> sentences;
+    for (const StudyEstimate& one : summary.estimates) {
+      if (one.measure != &threshold || !one.value) continue;
+      const std::string beside =
+          one.reference_g ? fmt::format(" more than {:g} g", *one.reference_g) : "";
+      const std::string interval =
+          one.low ? fmt::format(" [{:.0f}, {:.0f}]", *one.low, *one.high) : "";
+      sentences.push_back(fmt::format("Threshold of \"{}\" ({}): {:.0f} g{}{} {}.",
+                                      one.text_at("block"), one.text_at("method"), *one.value,
+                                      interval, beside, in_condition(summary, one.condition)));
+    }
+    return sentences;
+  }
+
+  std::vector<EstimateTable> tables() const override {
+    const std::vector<EstimateColumn> place{
+        key_column("block", "block"), key_column("question", "question"),
+        key_column("condition", "condition"), key_column("reference_g", "reference g"),
+        key_column("method", "method")};
+    EstimateTable means{"judgment_threshold",
+                        "Thresholds of judgments, mean over participants",
+                        place,
+                        "what the procedures of judgments estimated, as for JNDs: of a single "
+                        "cube (no reference) the mass, otherwise the difference from the "
+                        "reference; censored: known only to lie above or below",
+                        TablePlace::results,
+                        "judgment_threshold[]"};
+    for (EstimateColumn& one :
+         std::vector{column(threshold, Field::value, "mean_g", "threshold g"),
+                     column(threshold, Field::sd, "sd_g", "SD"),
+                     column(threshold, Field::low, "low_g", "95 % low"),
+                     column(threshold, Field::high, "high_g", "high"),
+                     column(threshold, Field::n, "n", "n"),
+                     column(n_censored, Field::value, "n_censored", "censored", 0),
+                     column(n_missing, Field::value, "n_missing", "missing", 0)})
+      means.columns.push_back(std::move(one));
+    EstimateTable people{"judgment_threshold_by_participant", "Each participant's thresholds",
+                         place, "", TablePlace::csv};
+    people.participants = true;
+    people.columns.push_back(key_column("participant", "participant"));
+    people.columns.push_back(column(threshold, Field::value, "threshold_g", "threshold g"));
+    people.columns.push_back(column(threshold, Field::censored, "censored", "censored"));
+    return {means, people};
+  }
+
+ private:
+  StudyEstimate at(const Measure& measure, const Compared& compared) const {
+    StudyEstimate estimate{&measure, "judgment", compared.condition};
+    if (compared.reference_g > 0) estimate.reference_g = compared.reference_g;
+    const auto question = questions_.find(compared.block);
+    estimate.by = {{"block", compared.block},
+                   {"question", question == questions_.end() ? "" : question->second},
+                   {"method", compared.method}};
+    return estimate;
+  }
+
+  StaircaseFold staircases_{"judgment"};
+  std::map<std::string, std::string> questions_;  // by block
+  std::vector<ReferenceJnd> jnds_;
+};
+}  // namespace
+
+std::shared_ptr<Section> judgment_threshold_section() {
+  return std::make_shared<JudgmentThresholdSection>();
+}
+
+}  // namespace heft

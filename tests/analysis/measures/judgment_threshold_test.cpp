@@ -1,0 +1,87 @@
+// Thresholds of judgments: which procedures count, and apart by block.
+#include <gmock/gmock.h>
+
+#include "analysis/Figures.h"
+#include "analysis/MadeUpSessions.h"
+#include "analysis/dataset/Jnd.h"
+
+namespace heft {
+namespace {
+
+using namespace made_up;
+
+void add_threshold(SessionData& data, const std::string& block, std::optional<double> reference_g,
+                   double jnd_g, const std::string& task = "judgment") {
+  Attempt& attempt = add_attempt(data, task, {reference_g.value_or(0) + 100});
+  attempt.trial.plan.block = block;
+  attempt.trial.plan.staircase = block + " staircase";
+  attempt.trial.plan.reference_g = reference_g;
+  attempt.trial.plan.level_g = 100;
+  attempt.trial.outcome = "chosen";
+  attempt.trial.value = 1;
+  EstimateRow row;
+  row.staircase = attempt.trial.plan.staircase;
+  row.method = jnd_method;
+  row.jnd_g = jnd_g;
+  row.n_trials = 20;
+  row.n_reversals = 8;
+  data.estimates.push_back(row);
+}
+
+std::optional<double> of(const Summary& summary, const char* measure, const char* block,
+                         const char* reference_g, const char* participant = "") {
+  return figure(summary, measure,
+                {{"block", block}, {"reference_g", reference_g}, {"participant", participant}})
+      .value;
+}
+
+TEST(JudgmentThreshold, IsAMeanOverPeopleApartByBlock) {
+  SessionData one = session(1, "one"), other = session(2, "other"), third = session(3, "third");
+  for (auto [data, g] : {std::pair(&one, 100.0), {&other, 200.0}, {&third, 400.0}}) {
+    add_threshold(*data, "heavy", std::nullopt, g);
+    add_threshold(*data, "harder", 200, g / 10);
+    add_threshold(*data, "compared", 200, 77, "comparison");
+  }
+  const Summary summary = summarized({one, other, third});
+  const double heavy_g = of(summary, "judgment_threshold", "heavy", "").value();
+  EXPECT_GT(heavy_g, 200);  // the geometric mean, below that of the log-normal model
+  EXPECT_LT(heavy_g, 300);
+  EXPECT_NEAR(of(summary, "judgment_threshold", "harder", "200").value(), heavy_g / 10, 1e-6);
+  EXPECT_EQ(of(summary, "judgment_threshold", "heavy", "", "third"), 400);
+  EXPECT_EQ(of(summary, "judgment_threshold_n_missing", "heavy", ""), 0);
+  StaircaseFold comparisons;
+  for (const SessionData& data : {one, other, third}) comparisons.add(data);
+  EXPECT_EQ(comparisons.jnds().size(), 1u) << "judgments are no JNDs of comparisons";
+}
+
+const std::string judgment = R"(title = "t"
+[[block]]
+kind = "judgment"
+name = "j"
+question = "a.b"
+responses = RESPONSES
+[[block.staircase]]
+name = "s"
+reference_g = 200
+start = 100
+step = 10
+floor = FLOOR
+)";
+
+std::set<std::string> without(std::string text, const std::string& responses,
+                              const std::string& floor) {
+  text.replace(text.find("RESPONSES"), 9, responses);
+  text.replace(text.find("FLOOR"), 5, floor);
+  return staircases_without_jnd(text);
+}
+
+TEST(JudgmentThreshold, OfAForcedChoiceNeedsLevelsThatAreNeverLighter) {
+  const std::string forced = R"({ l = "left", r = "right" })";
+  EXPECT_TRUE(without(judgment, forced, "0").empty());
+  EXPECT_EQ(without(judgment, forced, "-100"), std::set<std::string>{"s"});
+  EXPECT_TRUE(without(judgment, R"({ l = "left", r = "right", n = "none" })", "0").empty());
+  EXPECT_TRUE(without(judgment, R"({ y = "positive", n = "negative" })", "0").empty());
+}
+
+}  // namespace
+}  // namespace heft
