@@ -71,9 +71,13 @@ void visit_columns(Row& row, Visit&& visit) {
   visit(LogColumn{"status", "", "status of the attempt"}, row.status);
   visit(LogColumn{"void_reason", "", "reason why the attempt is void"}, row.void_reason);
   visit(LogColumn{"outcome", "", "outcome of the trial"}, row.outcome);
-  visit(LogColumn{"chosen_slot", "", "slot of the chosen cube; 1 is leftmost", "BETWEEN 1 AND 6"},
+  visit(LogColumn{"chosen_slot", "",
+                  "slot of the chosen cube; 1 is leftmost, one after the cubes': the real object",
+                  "BETWEEN 1 AND 6"},
         row.chosen_slot);
-  visit(LogColumn{"reference_slot", "", "slot of the reference; 1 is leftmost", "BETWEEN 1 AND 6"},
+  visit(LogColumn{"reference_slot", "",
+                  "slot of the reference; 1 is leftmost, one after the cubes': a real object",
+                  "BETWEEN 1 AND 6"},
         row.plan.reference_slot);
   visit(LogColumn{"choice_correct", "", "whether the heaviest cube was chosen"},
         row.choice_correct);

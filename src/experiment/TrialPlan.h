@@ -61,6 +61,11 @@ struct TrialPlan {
   std::optional<int> reference_slot;   ///< likewise; slots count from 1
   int n_reshuffles = 0;  ///< how often cubes were shuffled or replaced in this attempt
 
+  /// Mass of a real object that is the reference, in the place after the cubes'; none: there is
+  /// none.
+  std::optional<double> real_reference_g() const {
+    return reference_slot && *reference_slot > n_slots() ? reference_g : std::nullopt;
+  }
   int n_slots() const { return static_cast<int>(masses_g.size()); }
 };
 

@@ -6,13 +6,16 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
+#include <utility>
 
 #include "base/Names.h"
 #include "base/files/Printable.h"
 #include "base/files/TextFile.h"
 #include "physics/DecouplingSimulator.h"
 #include "protocol/readers/ProtocolTables.h"
+#include "tasks/Comparison.h"
 #include "tasks/SessionPlan.h"
 
 namespace heft {
@@ -162,6 +165,26 @@ void read_exclusion(TableReader& protocol, ExclusionRules& rules) {
     table.read("out_of_view", rules.out_of_view, fractions);
   });
 }
+
+// Results are by reference and technique: a cube and a real object would be mixed.
+void check_references(TableReader& protocol, const std::vector<Block>& blocks) {
+  std::map<std::pair<double, std::string>, const Comparison::Block*> first;
+  for (const Block& block : blocks) {
+    const auto* comparison = block_as<Comparison::Block>(block);
+    if (!comparison) continue;
+    for (const ReferenceStaircase& one : comparison->staircases) {
+      const std::string& technique = one.condition.empty() ? comparison->condition : one.condition;
+      const auto [found, is_new] = first.try_emplace({one.reference_g, technique}, comparison);
+      if (is_new || found->second->reference.has_value() == comparison->reference.has_value())
+        continue;
+      return protocol.mistake(
+          "block", fmt::format("the reference of {:g} g in {} is a cube and, in another block ({} "
+                               "and {}), a real object; expected another mass, or another name "
+                               "for the technique",
+                               one.reference_g, technique, found->second->name, comparison->name));
+    }
+  }
+}
 }  // namespace
 
 bool AnalysisPlan::declares(std::string_view hypothesis) const {
@@ -199,6 +222,7 @@ Protocol parse_protocol(const std::string& text, const std::string& file,
   read_analysis(reader, protocol.analysis);
   read_exclusion(reader, protocol.exclusion);
   protocol.blocks = read_blocks(reader, TechniqueNames(protocol.techniques));
+  check_references(reader, protocol.blocks);
   read_block_order(reader, protocol.blocks);
   check_asked(reader, protocol);
   read_layout(reader, protocol.layout, most_cubes(protocol.blocks));
@@ -277,6 +301,17 @@ bool depends_on_answers(const Protocol& protocol) {
   });
 }
 
+double assumed_trial_s(const Protocol& protocol, std::string_view task) {
+  double n = 0, seconds = 0;
+  for (const Block& block : protocol.blocks)
+    if (const auto* trials = std::get_if<TaskBlock>(&block);
+        trials && trials->task().name == task) {
+      n += trials->expected_trials();
+      seconds += trials->expected_trials() * trials->trial_s();
+    }
+  return n > 0 ? seconds / n : task_named(task).trial_s;
+}
+
 double expected_minutes(const Protocol& protocol, const TrialsByTask& trials) {
   double seconds = 0;
   for (const Block& block : protocol.blocks) {
@@ -284,7 +319,7 @@ double expected_minutes(const Protocol& protocol, const TrialsByTask& trials) {
     if (const auto* pause = std::get_if<BreakBlock>(&block)) seconds += pause->least_duration_s;
   }
   for (const auto& [task, n] : trials)
-    seconds += n * (task_named(task).trial_s + protocol.onset.gap_s);
+    seconds += n * (assumed_trial_s(protocol, task) + protocol.onset.gap_s);
   return seconds / 60;
 }
 

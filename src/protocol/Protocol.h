@@ -129,7 +129,9 @@ double total_of(const TrialsByTask& trials);
 /// Whether the number of trials in any block depends on the answers.
 bool depends_on_answers(const Protocol& protocol);
 
-/// Duration of these trials by TaskDeclaration::trial_s, with demonstrations, minimum breaks and
+/// Assumed duration of a trial of a task: mean over the protocol's blocks.
+double assumed_trial_s(const Protocol& protocol, std::string_view task);
+/// Duration of these trials by assumed_trial_s(), with demonstrations, minimum breaks and
 /// gaps between trials.
 double expected_minutes(const Protocol& protocol, const TrialsByTask& trials);
 

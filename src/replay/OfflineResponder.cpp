@@ -164,6 +164,7 @@ class SessionJudge {
     for (std::size_t i = 0; i < models_.size(); ++i) {
       const Model::Draws& responders = models_[i].in_effect(attempt.row);
       TrialView view = displayed;
+      view.lifted_g = plan.real_reference_g();
       if (responders.front()->knows_plan()) view.truth = truth_of(protocol, plan);
       const auto draws = draws_of(responders, view, seen, block, plan);
       if (!draws) return leave_out(attempt, no_answer_of(models_[i].name()));
@@ -186,7 +187,9 @@ class SessionJudge {
             plan.condition,
             plan.reference_g,
             plan.level_g,
-            std::ranges::min(plan.masses_g) < std::ranges::max(plan.masses_g),
+            plan.real_reference_g()
+                ? plan.level_g != 0
+                : std::ranges::min(plan.masses_g) < std::ranges::max(plan.masses_g),
             *logged.n_answers(),
             logged.detects(),
             word_of(logged),

@@ -1,7 +1,7 @@
 // A responder has a hand and a decision model. The hand gives the effector's pose over time; the
 // decision model receives displayed frames and answers with actions. Neither gets a mass, a force
-// or a condition, but for null models that do not look at all and declare it (TrialTruth).
-// Responder.cpp has the table of all responders.
+// or a condition, but that of a real object, which is felt, and for null models that do not look at
+// all and declare it (TrialTruth). Responder.cpp has the table of all responders.
 //
 // Responders keep no memory between trials, and draw from streams keyed by trial number and
 // attempt, so that a trial interrupted by a crash is repeated exactly.
@@ -47,6 +47,7 @@ struct TrialView {
   /// answer, was vetoed, or this is the first trial.
   std::optional<bool> last_differed = {};
   std::optional<TrialTruth> truth = {};  ///< none unless the responder knows_plan()
+  std::optional<double> lifted_g = {};   ///< mass of a real object that the participant lifts
   int n_reshuffles = 0;                  ///< how often the cubes were shuffled or replaced
 };
 

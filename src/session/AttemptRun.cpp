@@ -38,6 +38,7 @@ TrialView trial_view(const SessionParts& parts, const TrialPlan& plan) {
                  parts.engine.screen().offer,
                  parts.engine.last_differed()};
   if (parts.responder.knows_plan()) view.truth = truth_of(parts.protocol, plan);
+  view.lifted_g = plan.real_reference_g();
   view.n_reshuffles = plan.n_reshuffles;
   return view;
 }

@@ -27,6 +27,20 @@ struct TechniqueTrials {
   int trials = 0;
 };
 
+/// A real object that the participant lifts.
+struct RealObject {
+  static constexpr std::size_t longest_name = 24;  ///< in characters: it is a button
+
+  std::string name;  ///< as the participant reads it
+  double mass_g = 0;
+
+  template <typename Visit>
+  void visit_keys(Visit&& visit) {
+    visit(ConfigKey{"name", "as the participant reads it", true}, name);
+    visit(ConfigKey{"mass_g", "of the object", true}, mass_g, above_zero);
+  }
+};
+
 int total_of(const std::vector<TechniqueTrials>& trials);
 
 /// Trials of each mass or set of cubes: a number with `condition`, or trials = { soft = 3, hard = 3

@@ -28,6 +28,18 @@ std::vector<double> catch_references(const Comparison::Block& block, std::uint64
   return references_g;
 }
 
+std::size_t n_characters(const std::string& utf8) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(utf8, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+// Of slots 1 and 2 the second may be a real object, which is lifted first.
+Answer answered(const Comparison::Offer& offer, Action action) {
+  if (offer.object.empty()) return {{std::move(action)}};
+  if (action.slot == 2) action = {"select_object"};
+  return {{{"lifted"}, std::move(action)}};
+}
+
 std::string catch_text(const Comparison::Block& block) {
   if (block.catch_trials.empty()) return fmt::format("{:g} %", 100 * block.catch_fraction);
   std::string text;
@@ -38,6 +50,13 @@ std::string catch_text(const Comparison::Block& block) {
 }  // namespace
 
 ConfigMistakes Comparison::Block::check() const {
+  if (reference && sides == Sides::balanced)
+    return {{{"sides"}, "sides together with a real reference", "without it: there is one cube"}};
+  if (const std::size_t n = reference ? n_characters(reference->name) : 1;
+      n < 1 || n > RealObject::longest_name)
+    return {{{"reference"},
+             fmt::format("the name of the object has {} characters", n),
+             fmt::format("1 to {}: it is written on a button", RealObject::longest_name)}};
   if (!has_three_answers() && positive_answer != PositiveAnswer::any_choice)
     return {{{"positive_answer"},
              fmt::format(R"(positive_answer together with answers = "{}")", name_of(answers)),
@@ -60,12 +79,16 @@ std::vector<std::pair<std::string, std::string>> Comparison::Block::choices() co
                                                        : "answer \"different\""}};
   if (!is_forced() && !has_three_answers()) choices.emplace_back("answers", "same or different");
   if (is_forced()) choices.emplace_back("answers", "forced choice, without \"no difference\"");
+  if (reference)
+    choices.emplace_back("reference in " + name, fmt::format("a real object: {}, {:g} g",
+                                                             reference->name, reference->mass_g));
   add_staircases(choices, staircases);
   return choices;
 }
 
 StaircaseRules Comparison::Block::staircase_rules() const {
   StaircaseRules rules{.either_sign = is_forced()};
+  if (reference) rules.object_g = reference->mass_g;
   if (answers == ComparisonAnswers::same_different) rules.no_cube = "answers = \"same_different\"";
   return rules;
 }
@@ -142,6 +165,11 @@ TrialPlan Comparison::Run::plan(const TrialKey& key) const {
   plan.level_g =
       is_catch ? 0 : staircases_[index].next_level(level_stream(key.seed, plan.staircase));
   plan.reference_g = reference.reference_g;
+  if (block_.reference) {
+    plan.masses_g = {reference.reference_g + *plan.level_g};
+    plan.reference_slot = 2;
+    return plan;
+  }
   plan.reference_slot =
       reference_slot(key, plan, is_catch ? n_caught_ : staircases_[index].n_trials());
   plan.masses_g = {reference.reference_g, reference.reference_g};
@@ -174,17 +202,41 @@ std::optional<bool> Comparison::is_correct(const TrialRow& row) {
 }
 
 std::optional<std::string> Comparison::Trial::refusal(const Action& action) const {
-  if (answers_ == ComparisonAnswers::heavier && !action.slot)
+  if (!has_object() && (action.kind == "lifted" || action.kind == "select_object"))
+    return "there is no real object in this trial";
+  if (action.kind == "lifted") return std::nullopt;
+  if (has_object() && !was_lifted_) return "the real object has not been lifted yet";
+  const bool names_one = action.slot || action.kind == "select_object";
+  if (answers_ == ComparisonAnswers::heavier && !names_one)
     return "a forced choice: one of the two cubes is the answer";
-  if (answers_ == ComparisonAnswers::same_different && action.slot)
+  if (answers_ == ComparisonAnswers::same_different && names_one)
     return "the answer is whether the cubes are the same, not a cube";
   if (answers_ == ComparisonAnswers::heavier_or_none && action.kind == "different")
     return "the answer is a cube or no difference";
   return std::nullopt;
 }
 
+// The cube or the real object, of which `choose` knows nothing.
+void Comparison::Trial::choose_of_two(int slot) {
+  result_.chosen_slot = slot;
+  if (plan_.level_g.value_or(0) != 0)
+    result_.choice_correct = (slot == plan_.reference_slot) == (*plan_.level_g < 0);
+}
+
+void Comparison::Trial::show(ScreenState& screen) const {
+  screen.offer = Offer{answers_, object_, was_lifted_};
+  if (has_object()) screen.can_validate = was_lifted_;
+}
+
 void Comparison::Trial::take(const Action& action) {
-  if (action.slot) choose(*action.slot);
+  if (action.kind == "lifted") {
+    was_lifted_ = true;
+    return;
+  }
+  if (has_object() && (action.slot || action.kind == "select_object"))
+    choose_of_two(action.slot.value_or(2));
+  else if (action.slot)
+    choose(*action.slot);
   result_.outcome = action.kind == "no_difference" ? "no_difference" : "difference";
 }
 
@@ -196,27 +248,37 @@ std::string Comparison::Trial::answer() const {
 // A lapse: all answers are equally likely. A forced choice has no criterion.
 Answer Comparison::simulated(const Offer& offer, const Percepts& percepts, RandomStream& stream) {
   if (offer.answers == ComparisonAnswers::heavier)
-    return {{{"select", heaviest_slot(percepts.remembered_mm, {})}}};
+    return answered(offer, {"select", heaviest_slot(percepts.remembered_mm, {})});
   const bool names_cube = offer.answers == ComparisonAnswers::heavier_or_none;
   const std::size_t n_different = names_cube ? percepts.remembered_mm.size() : 1;
   const bool different = percepts.lapse ? stream.below(n_different + 1) > 0 : percepts.differ;
-  if (!different) return {{{"no_difference"}}};
-  if (!names_cube) return {{{"different"}}};
-  return {{{"select", heaviest_slot(percepts.remembered_mm, {})}}};
+  if (!different) return answered(offer, {"no_difference"});
+  if (!names_cube) return answered(offer, {"different"});
+  return answered(offer, {"select", heaviest_slot(percepts.remembered_mm, {})});
 }
 
 Answer Comparison::blind(const Offer& offer, const WithoutPercepts& known, RandomStream& stream) {
-  if (!known.differ && offer.answers != ComparisonAnswers::heavier) return {{{"no_difference"}}};
-  if (offer.answers == ComparisonAnswers::same_different) return {{{"different"}}};
-  const auto n = static_cast<std::uint64_t>(known.n_slots);
-  return {{{"select", 1 + static_cast<int>(stream.below(n))}}};
+  if (!known.differ && offer.answers != ComparisonAnswers::heavier)
+    return answered(offer, {"no_difference"});
+  if (offer.answers == ComparisonAnswers::same_different) return answered(offer, {"different"});
+  const auto n = static_cast<std::uint64_t>(offer.object.empty() ? known.n_slots : 2);
+  return answered(offer, {"select", 1 + static_cast<int>(stream.below(n))});
 }
 
 std::vector<ScreenState> Comparison::fullest_screens() {
   ScreenState screen{.n_slots = 2}, same_different = screen;
   screen.offer = Offer{};
   same_different.offer = Offer{ComparisonAnswers::same_different};
-  return {screen, same_different};
+  std::vector<ScreenState> screens{screen, same_different};
+  const std::string longest = "Mass of brass, labeled B2";
+  for (const ComparisonAnswers answers :
+       {ComparisonAnswers::heavier_or_none, ComparisonAnswers::same_different})
+    for (const bool was_lifted : {false, true}) {
+      ScreenState& real = screens.emplace_back(ScreenState{.n_slots = 1});
+      real.offer = Offer{answers, longest.substr(0, RealObject::longest_name), was_lifted};
+      real.can_validate = was_lifted;
+    }
+  return screens;
 }
 
 }  // namespace heft

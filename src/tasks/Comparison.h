@@ -1,9 +1,10 @@
 // Comparison task (paper, 4.2): which of two cubes, a reference and a comparison, is heavier, or no
 // difference; in a forced choice (answers = "heavier") there is no such third answer; or only
-// whether they are the same or different (answers = "same_different"). Levels come from interleaved
-// staircases. Catch trials have a difference of 0 and update no staircase; a fixed number of them
-// is drawn in shuffled blocks, so that each participant gets the planned number for each reference,
-// spread over the session.
+// whether they are the same or different (answers = "same_different"). The reference may be a real
+// object beside the board, which the participant lifts, reports to have lifted, and compares with
+// the only cube. Levels come from interleaved staircases. Catch trials have a difference of 0 and
+// update no staircase; a fixed number of them is drawn in shuffled blocks, so that each participant
+// gets the planned number for each reference, spread over the session.
 #pragma once
 
 #include <optional>
@@ -64,16 +65,23 @@ template <typename Block>
 CatchTrials(Block&) -> CatchTrials<Block>;
 
 struct Comparison {
-  static constexpr std::array actions{ActionSpec{.kind = "select", .slot = true},
-                                      ActionSpec{.kind = "no_difference"},
-                                      ActionSpec{.kind = "different"}};
+  static constexpr std::array actions{
+      ActionSpec{.kind = "select", .slot = true}, ActionSpec{.kind = "no_difference"},
+      ActionSpec{.kind = "different"}, ActionSpec{.kind = "lifted", .is_step = true},
+      ActionSpec{.kind = "select_object"}};
   static constexpr std::array<std::string_view, 2> outcomes{"difference", "no_difference"};
-  static constexpr std::array wordings{Wording{name_of(ComparisonAnswers::heavier)},
-                                       Wording{name_of(ComparisonAnswers::same_different),
-                                               "question_same_different same different"}};
+  /// With a real object, by its ComparisonAnswers.
+  static constexpr std::array<std::string_view, 3> real_wordings{"object", "object_heavier",
+                                                                 "object_same_different"};
+  static constexpr std::array wordings{
+      Wording{name_of(ComparisonAnswers::heavier)},
+      Wording{name_of(ComparisonAnswers::same_different), "question_same_different same different"},
+      Wording{real_wordings[0], "question_object lift lifted cube"},
+      Wording{real_wordings[1], "question_object lift lifted cube"},
+      Wording{real_wordings[2], "question_object_same lift lifted same different"}};
   static constexpr TaskDeclaration task{
       .name = "comparison",
-      .edition = 2,  // "different" was added
+      .edition = 3,  // "different" was added, then "lifted" and "select_object"
       .about = "Which of two cubes is heavier, or is there no difference",
       .actions = actions,
       .outcomes = outcomes,
@@ -94,6 +102,7 @@ struct Comparison {
     int catch_every = 7;
     Sides sides = Sides::random;
     PositiveAnswer positive_answer = PositiveAnswer::any_choice;
+    std::optional<RealObject> reference;  ///< none: a cube
     InterleaveConfig interleaving;
     std::vector<ReferenceStaircase> staircases;
 
@@ -103,6 +112,7 @@ struct Comparison {
       visit(ConfigKey{"answers", "what may be answered"}, answers);
       visit(ConfigKey{"positive_answer", "answers that move a staircase down"}, positive_answer);
       visit(ConfigKey{"sides", "of the reference"}, sides);
+      visit(ConfigKey{"reference", "a real object that is lifted"}, reference);
       visit(ConfigKey{"interleave", "order of staircases"}, interleaving);
       visit(ConfigKey{"staircase", "a procedure and its reference", true}, StaircasesOf{*this});
       visit(ConfigKey{"catch_fraction", "random fraction of trials"}, catch_fraction,
@@ -115,17 +125,21 @@ struct Comparison {
     double expected_staircase_trials() const;  ///< without catch trials
     double expected_trials() const;
     bool depends_on_answers() const { return depend_on_answers(staircases); }
-    int most_cubes() const { return 2; }
+    int most_cubes() const { return reference ? 1 : 2; }
+    double trial_s() const { return reference ? 15 : task.trial_s; }
     /// Without catch trials, and with random sides: staircases do not advance in practice.
     Block for_practice() const;
     bool is_forced() const { return answers == ComparisonAnswers::heavier; }
     bool has_three_answers() const { return answers == ComparisonAnswers::heavier_or_none; }
     std::string_view wording() const {
+      if (reference) return real_wordings[static_cast<std::size_t>(answers)];
       return has_three_answers() ? std::string_view() : name_of(answers);
     }
   };
   struct Offer {
     ComparisonAnswers answers = ComparisonAnswers::heavier_or_none;
+    std::string object = {};  ///< name of the real object; empty: there is none
+    bool was_lifted = false;
   };
 
   class Run : public TaskRun {
@@ -149,13 +163,15 @@ struct Comparison {
   class Trial : public TaskTrial {
    public:
     Trial(const Block& block, const TrialPlan& plan, std::uint64_t)
-        : TaskTrial(task, plan), answers_(block.answers) {}
+        : TaskTrial(task, plan),
+          answers_(block.answers),
+          object_(block.reference ? block.reference->name : "") {}
     std::optional<std::string> refusal(const Action& action) const override;
     void take(const Action& action) override;
-    void show(ScreenState& screen) const override { screen.offer = Offer{answers_}; }
+    void show(ScreenState& screen) const override;
     std::string answer() const override;
     std::optional<int> n_answers() const override {
-      return plan_.n_slots() + (answers_ == ComparisonAnswers::heavier_or_none ? 1 : 0);
+      return answers_ == ComparisonAnswers::heavier_or_none ? 3 : 2;
     }
     bool detects() const override { return answers_ != ComparisonAnswers::heavier; }
     std::optional<bool> answered_different() const override {
@@ -163,7 +179,12 @@ struct Comparison {
     }
 
    private:
+    bool has_object() const { return !object_.empty(); }
+    void choose_of_two(int slot);
+
     ComparisonAnswers answers_;
+    std::string object_;  // empty: none
+    bool was_lifted_ = false;
   };
 
   /// The response that a completed trial gives to its procedure.
@@ -173,6 +194,7 @@ struct Comparison {
   /// None for equal masses.
   static std::optional<bool> is_correct(const TrialRow& row);
 
+  /// A real object is lifted before the answer.
   static Answer simulated(const Offer&, const Percepts& percepts, RandomStream& stream);
   static Answer blind(const Offer&, const WithoutPercepts& known, RandomStream& stream);
   static std::vector<ScreenState> fullest_screens();

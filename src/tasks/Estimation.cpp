@@ -132,8 +132,6 @@ std::string Estimation::Trial::answer() const {
 }
 
 Answer Estimation::simulated(const Offer& offer, const Percepts& percepts, RandomStream&) {
-  // Friction 0.8 times gravity over 50 N/m (paper, 4.2).
-  constexpr double mm_per_g = 0.8 * 9.81 / 50;
   if (offer.is_standard) return {{{"validate"}}};
   const AnswerScale scale = scale_of(offer.question);
   const double remembered = std::max(0.0, percepts.remembered_mm.front());

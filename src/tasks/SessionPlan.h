@@ -102,6 +102,7 @@ class TaskBlock {
   double expected_trials() const {
     return of_task_->expected_trials() + (practice ? practice->trials : 0);
   }
+  double trial_s() const { return of_task_->trial_s(); }  ///< assumed duration of a trial
   bool depends_on_answers() const {
     return of_task_->depends_on_answers() || (practice && practice->until_correct > 0);
   }
@@ -145,6 +146,7 @@ class TaskBlock {
     virtual std::string_view wording() const = 0;
     virtual std::vector<std::pair<std::string, std::string>> choices() const = 0;
     virtual double expected_trials() const = 0;
+    virtual double trial_s() const = 0;
     virtual bool depends_on_answers() const = 0;
     virtual std::shared_ptr<const OfAny> with_question(
         const std::map<std::string, Questionnaire>& questionnaires) const = 0;
@@ -198,6 +200,10 @@ class TaskBlock {
     double expected_trials() const override {
       if constexpr (requires { block.expected_trials(); }) return block.expected_trials();
       return 0;
+    }
+    double trial_s() const override {
+      if constexpr (requires { block.trial_s(); }) return block.trial_s();
+      return Its::task.trial_s;
     }
     bool depends_on_answers() const override {
       if constexpr (requires { block.depends_on_answers(); }) return block.depends_on_answers();

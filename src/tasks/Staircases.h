@@ -27,6 +27,7 @@ struct ReferenceStaircase {
 struct StaircaseRules {
   enum class Reference { required, optional };
   Reference reference = Reference::required;
+  std::optional<double> object_g = {};  ///< of the real object that is the reference of all
   bool either_sign = false;             ///< the comparison may be lighter
   std::string_view no_cube = {};  ///< the key by which answers name no cube; empty: they name one
 };

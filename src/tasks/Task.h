@@ -58,9 +58,14 @@ struct Answer {
   bool operator==(const Answer&) const = default;
 };
 
+/// The cue of a gram as a simulated participant expects it: a cube's lag with the paper's friction
+/// 0.8 and spring of 50 N/m (4.2).
+inline constexpr double mm_per_g = 0.8 * 9.81 / 50;
+
 /// What a simulated participant has perceived of a trial when it answers.
 struct Percepts {
-  std::vector<double> remembered_mm;      ///< remembered cue of each cube, leftmost first
+  /// Remembered cue of each cube, leftmost first; then of the real object, if there is one.
+  std::vector<double> remembered_mm;
   bool differ = false;                    ///< whether the cues differ by more than the criterion
   bool lapse = false;                     ///< remembered_mm are uniform random numbers in [0, 1)
   double guess_probability = 0;           ///< of labels although no difference was perceived

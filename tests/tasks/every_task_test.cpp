@@ -40,6 +40,7 @@ std::vector<Shown> shown_tasks() {
   std::vector<Shown> all;
   for (const std::string_view task : words_of<Task>()) all.push_back({task});
   all.push_back({"judgment", "judgment_staircase"});
+  all.push_back({"comparison", "real_reference"});
   return all;
 }
 

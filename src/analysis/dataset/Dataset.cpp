@@ -187,6 +187,10 @@ Declared declared_in(const std::string& protocol_text, const SessionConfig& conf
     declared.published_conditions = published::conditions_in(protocol);
     for (const Block& block : protocol.blocks)
       if (const auto* comparison = block_as<Comparison::Block>(block);
+          comparison && comparison->reference)
+        declared.published_conditions.clear();  // the paper's reference was a cube
+    for (const Block& block : protocol.blocks)
+      if (const auto* comparison = block_as<Comparison::Block>(block);
           comparison && !comparison->has_three_answers())
         declared.answers[comparison->name] = comparison->answers;
     take_questions(protocol, config.texts.text, config.texts.path);

@@ -177,13 +177,17 @@ std::string_view order_in_words(Interleave interleave) {
 }
 
 std::string in_words(const Comparison::Block& block, Citations& citations) {
-  std::string text = fmt::format(
-      "They compared two cubes in {}, a reference and a comparison on {} sides, and {}.",
-      block.condition, block.sides == Sides::random ? "random" : "balanced",
-      block.is_forced()           ? "chose the heavier one"
-      : block.has_three_answers() ? "answered which one was heavier, or \"no difference\""
-                                  : "answered whether they were equally heavy, \"same\" or "
-                                    "\"different\"");
+  std::string text =
+      block.reference
+          ? fmt::format("They lifted a real object ({}, {:g} g), compared a cube in {} with it,",
+                        block.reference->name, block.reference->mass_g, block.condition)
+          : fmt::format("They compared two cubes in {}, a reference and a comparison on {} sides,",
+                        block.condition, block.sides == Sides::random ? "random" : "balanced");
+  text += fmt::format(" and {}.", block.is_forced() ? "chose the heavier one"
+                                  : block.has_three_answers()
+                                      ? "answered which one was heavier, or \"no difference\""
+                                      : "answered whether they were equally heavy, \"same\" or "
+                                        "\"different\"");
   text += staircases_in_words(block, citations);
   if (block.staircases.size() > 1)
     text +=

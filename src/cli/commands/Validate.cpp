@@ -91,11 +91,11 @@ std::optional<TrialsOfSome> trials_of_simulated(const Protocol& protocol, int pa
 }
 
 // "10 s per comparison trial, 25 s per sorting trial"
-std::string assumed_text(const TrialsByTask& trials) {
+std::string assumed_text(const Protocol& protocol, const TrialsByTask& trials) {
   std::string text;
   for (const auto& [task, n] : trials)
-    text += fmt::format("{}{:g} s per {} trial", text.empty() ? "" : ", ", task_named(task).trial_s,
-                        task);
+    text += fmt::format("{}{:g} s per {} trial", text.empty() ? "" : ", ",
+                        assumed_trial_s(protocol, task), task);
   return text;
 }
 
@@ -109,9 +109,9 @@ std::string described(const Protocol& protocol, std::vector<std::string>& cautio
       simulated = fmt::format(" ({:.0f} to {:.0f} in {} simulated participants)", taken->least,
                               taken->most, participants);
     }
-  std::string text = fmt::format("about {}{} and {:.0f} min (assuming {})",
-                                 counted(std::lround(total_of(trials)), "trial"), simulated,
-                                 expected_minutes(protocol, trials), assumed_text(trials));
+  std::string text = fmt::format(
+      "about {}{} and {:.0f} min (assuming {})", counted(std::lround(total_of(trials)), "trial"),
+      simulated, expected_minutes(protocol, trials), assumed_text(protocol, trials));
   if (protocol.simulator.name == "auto") text += "; " + described(resolve_auto(protocol));
   return text + "; what a study can find: heft power";
 }

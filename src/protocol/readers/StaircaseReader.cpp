@@ -94,8 +94,14 @@ std::vector<ReferenceStaircase> read_staircases_of(TableReader& table,
   std::string condition;
   bool paired = false;
   std::optional<double> start_below;
-  if (rules.reference == StaircaseRules::Reference::required) table.require({"reference_g"});
+  if (rules.reference == StaircaseRules::Reference::required && !rules.object_g)
+    table.require({"reference_g"});
   table.read("reference_g", reference_g, above_zero);
+  if (rules.object_g && table.has("reference_g"))
+    table.mistake("reference_g",
+                  "reference_g together with the block's reference, expected without: it is the "
+                  "mass of the real object");
+  reference_g = rules.object_g.value_or(reference_g);
   techniques.read(table, condition);
   table.read("paired", paired);
   table.read("start_below", start_below, zero_or_more);
@@ -105,7 +111,7 @@ std::vector<ReferenceStaircase> read_staircases_of(TableReader& table,
                   "staircase that starts there");
   const auto settings = read_staircase(table);
   if (!settings) return {{reference_g, StaircaseSettings{}.procedure(), condition}};
-  if (table.has("reference_g") && table.good({"reference_g"}))
+  if (rules.object_g || (table.has("reference_g") && table.good({"reference_g"})))
     check_beside(table, *settings, reference_g, rules.either_sign);
   if (!table.has("reference_g") && rules.reference == StaircaseRules::Reference::optional)
     table.note(std::visit([](const auto& config) { return mistakes_in_masses(config); },

@@ -27,6 +27,7 @@ Decision::Decision(const ResponderParameters& parameters, std::uint64_t seed,
     : parameters_(parameters),
       task_(trial.task),
       offer_(trial.offer),
+      lifted_g_(trial.lifted_g),
       stream_(trial_stream(seed, "decision", trial)) {
   double& criterion_mm = parameters_.criterion_mm;
   if (parameters.criterion_drift_mm > 0)
@@ -36,7 +37,9 @@ Decision::Decision(const ResponderParameters& parameters, std::uint64_t seed,
 }
 
 Answer Decision::decide(std::span<const double> percepts_mm, std::span<const int> wrong_slots) {
-  Percepts percepts{.remembered_mm = remembered_mm(percepts_mm),
+  std::vector<double> all_mm(percepts_mm.begin(), percepts_mm.end());
+  if (lifted_g_) all_mm.push_back(mm_per_g * *lifted_g_);
+  Percepts percepts{.remembered_mm = remembered_mm(all_mm),
                     .lapse = stream_.coin(parameters_.lapse_rate),
                     .guess_probability = parameters_.guess_probability,
                     .correction_probability = parameters_.correction_probability,

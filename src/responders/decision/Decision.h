@@ -22,6 +22,8 @@ class Decision {
   /// What the trial offers now.
   void offer(const std::any& offered) { offer_ = offered; }
 
+  /// A real object that is lifted is felt with the noise of memory and judgment alone, and compared
+  /// with what is seen by mm_per_g.
   /// @param percepts_mm by cube, leftmost first
   /// @param wrong_slots incorrect choices so far, oldest first, if the task asks again
   Answer decide(std::span<const double> percepts_mm, std::span<const int> wrong_slots);
@@ -33,6 +35,7 @@ class Decision {
   ResponderParameters parameters_;  ///< with the criterion of this trial
   Task task_;
   std::any offer_;
+  std::optional<double> lifted_g_;
   RandomStream stream_;
 };
 

@@ -9,9 +9,6 @@
 namespace heft {
 
 namespace {
-// Tasks that rate a single cube expect a lag: friction 0.8 times gravity over 50 N/m (paper, 4.2).
-constexpr double mm_per_g = 0.8 * 9.81 / 50;
-
 bool is_of(const ReferenceStaircase& staircase, const TrialPlan& plan) {
   return plan.staircase.empty() ? staircase.reference_g == plan.reference_g
                                 : staircase.staircase.name() == plan.staircase;
@@ -45,10 +42,12 @@ Answer weber_answer(const ResponderParameters& parameters, const TrialView& tria
                     std::span<const int> wrong_slots, RandomStream& stream) {
   Percepts percepts;
   percepts.wrong_slots = wrong_slots;
-  percepts.remembered_mm.assign(static_cast<std::size_t>(trial.stage.n_slots()), 0);
-  for (std::size_t i = 0; trial.truth && i < trial.truth->masses_g.size(); ++i)
-    percepts.remembered_mm[i] =
-        mm_per_g * trial.truth->masses_g[i] * std::exp(parameters.weber_noise * stream.normal());
+  std::vector<double> masses_g(static_cast<std::size_t>(trial.stage.n_slots()), 0);
+  if (trial.truth) std::ranges::copy(trial.truth->masses_g, masses_g.begin());
+  if (trial.lifted_g) masses_g.push_back(*trial.lifted_g);
+  for (const double mass_g : masses_g)
+    percepts.remembered_mm.push_back(mm_per_g * mass_g *
+                                     std::exp(parameters.weber_noise * stream.normal()));
   const auto [smallest, largest] = std::ranges::minmax(percepts.remembered_mm);
   percepts.differ = largest > (1 + parameters.weber_fraction) * smallest;
   return simulated_answer(trial.task, trial.offer, percepts, stream);

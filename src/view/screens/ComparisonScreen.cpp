@@ -18,15 +18,52 @@ void add_same_or_different(PageBuilder& builder) {
   for (const auto& [name, text, key] :
        {std::tuple("no_difference", "same", 's'), std::tuple("different", "different", 'd')})
     builder
-        .add_button(name, rows_below(first, i++, builder.measures.gap), builder.text_if_any(page, text),
-                    answer_touch({ActionKind(name)}), key)
+        .add_button(name, rows_below(first, i++, builder.measures.gap),
+                    builder.text_if_any(page, text), answer_touch({ActionKind(name)}), key)
         .enabled = can_answer(builder);
+  add_put_back(builder, bottom_row(builder));
+  mark_named(builder);
+}
+// First the real object is lifted, then compared: its button, then those of the answers.
+void add_comparison_with_object(PageBuilder& builder, const Comparison::Offer& offer) {
+  const bool by_same = offer.answers == ComparisonAnswers::same_different;
+  add_scene(builder, offer.was_lifted ? builder.text_if_any(page, by_same ? "question_object_same"
+                                                                          : "question_object")
+                                      : builder.text_if_any(page, "lift") + ' ' + offer.object);
+  add_hint(builder);
+  const Measures& m = builder.measures;
+  const Rect column = column_of(builder);
+  const Rect first{column.x, column.y, column.width, 1.1f * m.target};
+  int row = 0;
+  const auto add = [&](const std::string& name, const std::string& words, const Action& action,
+                       char key) -> Control& {
+    return builder.add_button(name, rows_below(first, row++, m.gap), words, answer_touch(action),
+                              key);
+  };
+  Control& lifted = add("lifted", builder.text_if_any(page, "lifted"), {"lifted"}, 'l');
+  lifted.enabled =
+      (builder.state.can_answer || builder.state.touch_first) && builder.memory.cubes_shown;
+  lifted.look = offer.was_lifted ? Look::plain : Look::primary;
+  const auto add_answer = [&](const std::string& name, const std::string& words,
+                              const Action& action, char key) {
+    add(name, words, action, key).enabled = can_answer(builder) && offer.was_lifted;
+  };
+  if (by_same) {
+    add_answer("no_difference", builder.text_if_any(page, "same"), {"no_difference"}, 's');
+    add_answer("different", builder.text_if_any(page, "different"), {"different"}, 'd');
+  } else {
+    add_answer("cube_1", builder.text_if_any(page, "cube"), {"select", 1}, '1');
+    add_answer("select_object", offer.object, {"select_object"}, '2');
+    if (offer.answers == ComparisonAnswers::heavier_or_none)
+      add_answer("no_difference", builder.text(page, "no_difference"), {"no_difference"}, 'n');
+  }
   add_put_back(builder, bottom_row(builder));
   mark_named(builder);
 }
 }  // namespace
 
 void Comparison::screen(PageBuilder& builder, const Offer& offer) {
+  if (!offer.object.empty()) return add_comparison_with_object(builder, offer);
   if (offer.answers == ComparisonAnswers::same_different) return add_same_or_different(builder);
   add_choice_of_cube(builder);
   if (offer.answers == ComparisonAnswers::heavier) return mark_named(builder);
