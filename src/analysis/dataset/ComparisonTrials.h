@@ -13,7 +13,7 @@
 #include "analysis/dataset/Dataset.h"
 #include "analysis/dataset/Jnd.h"
 #include "inference/Fit.h"
-#include "inference/PredictiveCheck.h"
+#include "inference/checks/PredictiveCheck.h"
 
 namespace heft {
 

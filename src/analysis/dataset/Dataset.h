@@ -14,7 +14,7 @@
 #include "analysis/dataset/Published.h"
 #include "experiment/Rows.h"
 #include "experiment/ScreenTexts.h"
-#include "inference/PredictiveCheck.h"
+#include "inference/checks/PredictiveCheck.h"
 #include "protocol/study/AnalysisPlan.h"
 #include "record/reader/LogReader.h"
 #include "tasks/Comparison.h"

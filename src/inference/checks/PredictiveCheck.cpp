@@ -1,4 +1,4 @@
-#include "inference/PredictiveCheck.h"
+#include "inference/checks/PredictiveCheck.h"
 
 #include <fmt/format.h>
 

@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "inference/Coverage.h"
-#include "inference/PredictiveCheck.h"
+#include "inference/checks/PredictiveCheck.h"
 #include "psychophysics/UpDown.h"
 
 namespace heft {
