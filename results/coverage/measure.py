@@ -21,6 +21,8 @@ FIGURES = [  # what a line says: kind, pattern
     ("ratio of thresholds", rf"^ratio of thresholds (?P<row>.*): {NUMBER} %"),
     ("log-normal mean", rf"^(?P<row>\d+ people, log SD .*): {NUMBER} %"),
     ("Tobit mean", rf"^(?P<row>\d+ people, ceiling .*): {NUMBER} %"),
+    ("perceived mass", rf"^(?P<row>\d+ people, perceived mass .*?): {NUMBER} %"),
+    ("perceived distance", rf"^(?P<row>\d+ people, perceived mass .*?): .*lighter {NUMBER} %"),
     ("above - below", rf"^(?P<row>\d+ people, .*above - below .*): {NUMBER} % of"),
 ]
 

@@ -7,6 +7,7 @@ std::shared_ptr<Section> timing_section();
 std::shared_ptr<Section> lag_section();
 std::shared_ptr<Section> tracking_section();
 std::shared_ptr<Section> sorting_section();
+std::shared_ptr<Section> perceived_mass_section();
 std::shared_ptr<Section> introduction_section();
 std::shared_ptr<Section> sensitivity_section();
 std::shared_ptr<Section> lab_section();
@@ -22,21 +23,14 @@ std::shared_ptr<Section> same_different_section();
 
 // Those first that hold most of each participant, as sections let go of it one after the other.
 std::vector<std::shared_ptr<Section>> all_sections() {
-  return {timing_section(),
-          lag_section(),
-          tracking_section(),
-          sorting_section(),
-          introduction_section(),
-          sensitivity_section(),
-          lab_section(),
-          staircase_section(),
-          choice_section(),
-          curve_section(),
-          estimation_section(),
-          judgment_section(),
-          judgment_threshold_section(),
-          adjustment_section(),
-          forced_choice_section(),
+  return {timing_section(),         lag_section(),
+          tracking_section(),       sorting_section(),
+          perceived_mass_section(), introduction_section(),
+          sensitivity_section(),    lab_section(),
+          staircase_section(),      choice_section(),
+          curve_section(),          estimation_section(),
+          judgment_section(),       judgment_threshold_section(),
+          adjustment_section(),     forced_choice_section(),
           same_different_section()};
 }
 

@@ -17,7 +17,7 @@ struct SourceText {
   std::string_view cited, in_full;
 };
 
-constexpr std::array<SourceText, 12> sources{{
+constexpr std::array<SourceText, 14> sources{{
     {"Issartel et al., 2015",
      "Issartel, P., Guéniat, F., Coquillart, S., & Ammi, M. (2015). Perceiving mass in mixed "
      "reality through pseudo-haptic rendering of Newton's third law. IEEE Virtual Reality."},
@@ -54,6 +54,11 @@ constexpr std::array<SourceText, 12> sources{{
      "193–201."},
     {"Stevens, 1957",
      "Stevens, S. S. (1957). On the psychophysical law. Psychological Review, 64, 153–181."},
+    {"Thurstone, 1927",
+     "Thurstone, L. L. (1927). A law of comparative judgment. Psychological Review, 34, 273–286."},
+    {"Chandler & Bate, 2007",
+     "Chandler, R. E., & Bate, S. (2007). Inference for clustered data using the independence "
+     "loglikelihood. Biometrika, 94, 167–183."},
 }};
 
 const SourceText& text_of(Source source) {
@@ -221,6 +226,10 @@ std::string other_estimators(const Summary& summary, Citations& citations) {
     return std::ranges::any_of(estimates_of(all, measure),
                                [&](const StudyEstimate* one) { return one->method == method; });
   };
+  const auto has_interval = [&](std::string_view measure) {
+    return std::ranges::any_of(estimates_of(all, measure),
+                               [](const StudyEstimate* one) { return one->low.has_value(); });
+  };
   if (has_method("jnd", name_of(MeanKind::log_normal_mean)))
     text += fmt::format(
         " The paper's JNDs are summarized by the mean of a log-normal distribution with censored "
@@ -231,6 +240,12 @@ std::string other_estimators(const Summary& summary, Citations& citations) {
         " Percentages are means over participants; their 95 % intervals are score intervals with "
         "participants as clusters ({}), or exact where all participants are equal.",
         citations.cite(Source::clustered));
+  if (has_interval("perceived_distance"))
+    text += fmt::format(
+        " Perceived masses are from the orders of sorted cubes by Thurstone's case V ({}): "
+        "maximum likelihood of whole orders, with profile-likelihood intervals scaled to the "
+        "variance over participants ({}).",
+        citations.cite(Source::comparative_judgment), citations.cite(Source::adjusted_likelihood));
   if (find_estimate(all, "forced_threshold_75"))
     text +=
         " Forced choices of each participant were fitted with a cumulative normal (maximum "

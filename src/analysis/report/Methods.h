@@ -22,7 +22,9 @@ enum class Source {
   quadrature,
   tobit,
   clustered,
-  magnitudes
+  magnitudes,
+  comparative_judgment,
+  adjusted_likelihood
 };
 
 /// Collects what was cited.
