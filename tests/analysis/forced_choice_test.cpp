@@ -15,16 +15,20 @@ using namespace made_up;
 // By level: how often the reference and the comparison were chosen.
 using Counts = std::map<double, std::pair<int, int>>;
 
-SessionData chooser(std::int64_t id, const char* participant, const Counts& counts) {
-  SessionData data = session(id, participant);
+void add_choices(SessionData& data, const Counts& counts, double reference_g, double times = 1) {
   for (const auto& [level_g, n] : counts)
     for (int i = 0; i < n.first + n.second; ++i) {
-      Attempt& attempt = add_comparison(data, "constant", 200, level_g);
+      Attempt& attempt = add_comparison(data, "constant", reference_g, times * level_g);
       attempt.answers_offered = ComparisonAnswers::heavier;
       attempt.trial.plan.condition = "C2";
       attempt.trial.outcome = "difference";
       attempt.trial.chosen_slot = i < n.first ? 1 : 2;  // the reference is on the left
     }
+}
+
+SessionData chooser(std::int64_t id, const char* participant, const Counts& counts) {
+  SessionData data = session(id, participant);
+  add_choices(data, counts, 200);
   return data;
 }
 
@@ -57,6 +61,47 @@ TEST(ForcedChoice, IsMeanOverParticipants) {
   EXPECT_NEAR(*threshold.value, (48.2439 + 90.4185) / 2, 2e-3);
   EXPECT_EQ(threshold.n, 2);
   EXPECT_EQ(threshold.method, "Student's t");
+}
+
+// One whose thresholds are proportional to the reference, and one whose thresholds are equal.
+TEST(WeberFraction, AndTheExponentOfThresholds) {
+  SessionData weber = session(1, "weber"), equal = session(2, "equal");
+  for (SessionData* data : {&weber, &equal}) {
+    add_choices(*data, both_signs, 200);
+    add_choices(*data, both_signs, 600, data == &weber ? 3 : 1);
+  }
+  const Summary summary = summarized({weber, equal});
+  const auto of = [&](const char* measure, const char* participant, const char* reference_g) {
+    return figure(summary, measure, {{"participant", participant}, {"reference_g", reference_g}});
+  };
+  for (const char* reference_g : {"200", "600"})
+    EXPECT_NEAR(*of("forced_weber_fraction", "weber", reference_g).value, 48.2439 / 200, 1e-5);
+  EXPECT_NEAR(*of("forced_weber_fraction", "equal", "600").value, 48.2439 / 600, 1e-5);
+  EXPECT_NEAR(*of("forced_weber_fraction", "equal", "600").high,
+              *of("forced_threshold_75", "equal", "600").high / 600, 1e-9);
+  EXPECT_NEAR(*of("forced_weber_fraction", "", "600").value, 48.2439 / 600 * 2, 1e-5);
+  EXPECT_NEAR(*of("forced_threshold_exponent", "weber", "").value, 1, 1e-4);
+  EXPECT_NEAR(*of("forced_threshold_exponent", "equal", "").value, 0, 1e-4);
+  const StudyEstimate exponent = of("forced_threshold_exponent", "", "");
+  EXPECT_NEAR(*exponent.value, 0.5, 1e-4);
+  EXPECT_NEAR(*exponent.high, 0.5 + 12.7062 * 0.5, 1e-3);  // Student's t of one degree
+  EXPECT_EQ(exponent.n, 2);
+}
+
+TEST(WeberFraction, ExponentNeedsThresholdsAtTwoReferences) {
+  SessionData data = session(1, "a");
+  add_choices(data, both_signs, 200);
+  EXPECT_FALSE(find_estimate(summarized({data}).estimates, "forced_threshold_exponent"));
+  add_choices(data, {{-80, {20, 20}}, {80, {20, 20}}}, 600);
+  const StudyEstimate exponent = figure({data}, "forced_threshold_exponent");
+  EXPECT_FALSE(exponent.value);
+  EXPECT_EQ(exponent.why, "a threshold at fewer than two references");
+}
+
+TEST(WeberFraction, OfAReferenceOfNoMassIsNone) {
+  SessionData data = session(1, "a");
+  add_choices(data, heavier, 0);
+  EXPECT_FALSE(find_estimate(summarized({data}).estimates, "forced_weber_fraction"));
 }
 
 TEST(ForcedChoice, OfACoinHasNoThresholdButAReason) {

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <span>
 #include <tuple>
 
 #include "analysis/measures/Section.h"
+#include "analysis/measures/Sensitivity.h"
 #include "analysis/measures/ShareByLevel.h"
 #include "analysis/report/Notes.h"
 
@@ -18,6 +18,15 @@ constexpr Measure threshold{
     "difference in mass that makes 75 % of forced choices correct, lapses apart: cumulative normal "
     "fitted to each participant by maximum likelihood with 2 % lapses; mean over participants, "
     "Student's t interval; of one alone the fit's interval"};
+constexpr Measure weber_fraction{
+    "forced_weber_fraction", "", "Weber fraction",
+    "75 % threshold of forced choices by the mass of the reference: mean over participants, "
+    "Student's t interval; of one alone the fit's interval"};
+constexpr Measure exponent{
+    "forced_threshold_exponent", "", "exponent",
+    "slope of the logarithm of a participant's 75 % threshold of forced choices on the logarithm "
+    "of the reference: mean over participants, Student's t interval; 0 if thresholds are equal, 1 "
+    "if Weber fractions are"};
 constexpr Measure pse{
     "forced_pse", "g", "point of subjective equality",
     "difference in mass at which the comparison is chosen in half of the forced choices, from the "
@@ -51,33 +60,19 @@ class ForcedChoiceSection final : public Section {
   Estimates of_participants(const Summary&) const override {
     Estimates all;
     for (const auto& [compared, people] : people_)
-      for (const auto& [participant, answers] : people) {
-        const ForcedChoiceFit found = fit_forced_choice(answers);
-        const auto put = [&, &its = compared, &name = participant, &given = answers](
-                             const Measure& measure, const FittedParameter& parameter) {
-          StudyEstimate& own = all.emplace_back(at(measure, its));
-          own.participant = name;
-          own.value = parameter.value;
-          own.low = parameter.low;
-          own.high = parameter.high;
-          own.n = 1;
-          own.n_trials = static_cast<int>(trials_in(given));
-          own.method = "maximum likelihood";
-          own.why = found.why;
-          if (!own.why.empty()) own.value = own.low = own.high = std::nullopt;
-        };
-        put(threshold, found.threshold);
-        if (found.pse) put(pse, *found.pse);
-      }
+      for (const auto& [participant, answers] : people)
+        put_fit(all, compared, participant, answers);
+    for (StudyEstimate& one : own_exponents(all, threshold, exponent)) all.push_back(one);
     return all;
   }
 
   void put(Summary& summary) override {
     const Estimates own = of_participants(summary);
-    std::map<std::tuple<double, std::string, std::string_view>, std::vector<const StudyEstimate*>>
+    std::map<std::tuple<std::optional<double>, std::string, std::string_view>,
+             std::vector<const StudyEstimate*>>
         groups;
     for (const StudyEstimate& one : own)
-      groups[{*one.reference_g, one.condition, one.measure->name}].push_back(&one);
+      groups[{one.reference_g, one.condition, one.measure->name}].push_back(&one);
     for (const auto& [key, people] : groups) summary.estimates.push_back(over_people(people));
     for (const auto& [compared, people] : people_) shares.put(summary.estimates, compared, people);
   }
@@ -99,6 +94,7 @@ class ForcedChoiceSection final : public Section {
         TablePlace::results,
         "forced_choice[]"};
     add_interval(thresholds.columns, threshold, "low_g", "high_g", 1);
+    add_weber_fraction(thresholds.columns, weber_fraction);
     thresholds.columns.push_back(column(pse, Field::value, "pse_g", "PSE g"));
     add_interval(thresholds.columns, pse, "pse_low_g", "pse_high_g", 1);
     thresholds.columns.push_back(column(threshold, Field::why, "why", "no threshold: why"));
@@ -116,14 +112,44 @@ class ForcedChoiceSection final : public Section {
         "",
         TablePlace::csv};
     people.participants = true;
-    return {thresholds, shares.table(), people};
+    add_weber_fraction(people.columns, weber_fraction);
+    return {
+        thresholds,
+        exponent_table("forced_choice_exponents",
+                       "Forced choices: growth of thresholds with the reference", exponent),
+        shares.table(), people,
+        own_exponent_table("forced_choice_exponents_by_participant",
+                           "Each participant's growth of thresholds in forced choices", exponent)};
   }
 
   std::vector<ChartSpec> charts() const override { return {shares.chart()}; }
 
  private:
-  static StudyEstimate at(const Measure& measure, const Compared& compared) {
-    return {&measure, "comparison", compared.condition, compared.reference_g};
+  static StudyEstimate own_estimate(const Measure& measure, const Compared& compared,
+                                    const std::string& participant, const AnswersByLevel& answers) {
+    StudyEstimate own{&measure, "comparison", compared.condition, compared.reference_g};
+    own.participant = participant;
+    own.n = 1;
+    own.n_trials = static_cast<int>(trials_in(answers));
+    return own;
+  }
+
+  static void put_fit(Estimates& all, const Compared& compared, const std::string& participant,
+                      const AnswersByLevel& answers) {
+    const ForcedChoiceFit found = fit_forced_choice(answers);
+    const auto put = [&](const Measure& measure, const FittedParameter& parameter) {
+      StudyEstimate& own = all.emplace_back(own_estimate(measure, compared, participant, answers));
+      own.method = "maximum likelihood";
+      own.why = found.why;
+      if (!own.why.empty()) return;
+      own.value = parameter.value;
+      own.low = parameter.low;
+      own.high = parameter.high;
+    };
+    put(threshold, found.threshold);
+    if (const auto fraction = weber_fraction_of(all.back(), weber_fraction))
+      all.push_back(*fraction);
+    if (found.pse) put(pse, *found.pse);
   }
 
   std::map<Compared, AnswersByPerson> people_;

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "analysis/measures/Section.h"
+#include "analysis/measures/Sensitivity.h"
 #include "analysis/measures/ShareByLevel.h"
 #include "analysis/report/Notes.h"
 #include "inference/Fit.h"
@@ -19,6 +21,15 @@ constexpr Measure threshold{
     "of the differencing model, fitted to each participant's same-different answers by maximum "
     "likelihood with 2 % lapses; the criterion has no influence on it; mean over participants, "
     "Student's t interval; of one alone the fit's interval"};
+constexpr Measure weber_fraction{
+    "same_different_weber_fraction", "", "Weber fraction",
+    "75 % threshold of same-different comparisons by the mass of the reference: mean over "
+    "participants, Student's t interval; of one alone the fit's interval"};
+constexpr Measure exponent{
+    "same_different_threshold_exponent", "", "exponent",
+    "slope of the logarithm of a participant's 75 % threshold of same-different comparisons on the "
+    "logarithm of the reference: mean over participants, Student's t interval; 0 if thresholds are "
+    "equal, 1 if Weber fractions are"};
 constexpr Measure criterion{
     "same_different_criterion", "", "criterion",
     "half-width of what is answered by \"same\", in standard deviations of the perceived "
@@ -54,18 +65,19 @@ class SameDifferentSection final : public Section {
     for (const auto& [compared, people] : people_)
       for (const auto& [participant, answers] : people)
         put_own(all, compared, participant, answers);
+    for (StudyEstimate& one : own_exponents(all, threshold, exponent)) all.push_back(one);
     return all;
   }
 
   void put(Summary& summary) override {
-    for (const auto& [compared, people] : people_) {
-      Estimates own;
-      for (const auto& [participant, answers] : people)
-        put_own(own, compared, participant, answers);
-      for (const Measure* measure : {&threshold, &criterion})
-        summary.estimates.push_back(over_people(estimates_of(own, measure->name)));
-      shares.put(summary.estimates, compared, people);
-    }
+    const Estimates own = of_participants(summary);
+    std::map<std::tuple<std::optional<double>, std::string, std::string_view>,
+             std::vector<const StudyEstimate*>>
+        groups;
+    for (const StudyEstimate& one : own)
+      groups[{one.reference_g, one.condition, one.measure->name}].push_back(&one);
+    for (const auto& [key, people] : groups) summary.estimates.push_back(over_people(people));
+    for (const auto& [compared, people] : people_) shares.put(summary.estimates, compared, people);
   }
 
   std::vector<std::string> findings(const Summary& summary) const override {
@@ -85,6 +97,7 @@ class SameDifferentSection final : public Section {
         TablePlace::results,
         "same_different[]"};
     add_interval(thresholds.columns, threshold, "low_g", "high_g", 1);
+    add_weber_fraction(thresholds.columns, weber_fraction);
     thresholds.columns.push_back(column(criterion, Field::value, "criterion", "criterion SD", 2));
     add_interval(thresholds.columns, criterion, "criterion_low", "criterion_high", 2);
     thresholds.columns.push_back(column(threshold, Field::why, "why", "no threshold: why"));
@@ -102,7 +115,16 @@ class SameDifferentSection final : public Section {
         "",
         TablePlace::csv};
     people.participants = true;
-    return {thresholds, shares.table(), people};
+    add_weber_fraction(people.columns, weber_fraction);
+    return {thresholds,
+            exponent_table("same_different_exponents",
+                           "Same-different comparisons: growth of thresholds with the reference",
+                           exponent),
+            shares.table(), people,
+            own_exponent_table("same_different_exponents_by_participant",
+                               "Each participant's growth of thresholds in same-different "
+                               "comparisons",
+                               exponent)};
   }
 
   std::vector<ChartSpec> charts() const override { return {shares.chart()}; }
@@ -120,11 +142,14 @@ class SameDifferentSection final : public Section {
       own.n_trials = static_cast<int>(fit.n_trials);
       own.method = "profile likelihood";
       own.why = fit.why;
-      if (!fit.identifiable()) continue;
-      const FittedParameter& fitted = fit.parameter(name);
-      own.value = fitted.value;
-      own.low = fitted.low;
-      own.high = fitted.high;
+      if (fit.identifiable()) {
+        const FittedParameter& fitted = fit.parameter(name);
+        own.value = fitted.value;
+        own.low = fitted.low;
+        own.high = fitted.high;
+      }
+      if (measure != &threshold) continue;
+      if (const auto fraction = weber_fraction_of(own, weber_fraction)) all.push_back(*fraction);
     }
   }
 

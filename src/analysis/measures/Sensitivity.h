@@ -2,7 +2,9 @@
 // MixedIndecision.h.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "analysis/dataset/ComparisonTrials.h"
@@ -44,5 +46,27 @@ EstimateTable predictive_checks_table();
 /// is the other one, or nothing was checked.
 std::string misfit_sentence(const Estimates& all);
 std::string fit_sentence(const Estimates& all);
+
+// Weber fractions, thresholds by the mass of the reference, and the exponent of a power law between
+// the two: 0 where thresholds are equal, 1 where Weber fractions are (Weber's law). Of thresholds
+// of any task; in WeberFraction.cpp.
+
+/// The threshold over its reference, with its interval; none at a reference of 0 g.
+std::optional<StudyEstimate> weber_fraction_of(const StudyEstimate& threshold,
+                                               const Measure& fraction);
+
+/// The columns of it and, outside of text, its interval.
+void add_weber_fraction(std::vector<EstimateColumn>& columns, const Measure& fraction);
+
+/// Each participant's slope of log threshold on log reference, by condition: least squares over the
+/// references at which they have a threshold. None where no participant was asked at two
+/// references.
+Estimates own_exponents(const Estimates& thresholds, const Measure& threshold,
+                        const Measure& exponent);
+
+/// The mean over participants of their exponents.
+EstimateTable exponent_table(std::string name, std::string title, const Measure& exponent);
+/// Each one's. CSV only.
+EstimateTable own_exponent_table(std::string name, std::string title, const Measure& exponent);
 
 }  // namespace heft

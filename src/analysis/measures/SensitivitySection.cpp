@@ -16,6 +16,9 @@ namespace {
 constexpr Measure threshold{"threshold_75", "g", "threshold",
                             "75 %-correct discrimination threshold of the median participant in a "
                             "forced choice, free of the criterion (indecision model)"};
+constexpr Measure weber_fraction{
+    "weber_fraction", "", "Weber fraction",
+    "75 %-correct discrimination threshold by the mass of the reference"};
 constexpr Measure sensitivity{
     "sensitivity", "1/g", "sensitivity",
     "sensitivity of the median participant: d' per gram (indecision model)"};
@@ -58,6 +61,7 @@ void put_fit(Estimates& all, const ReferenceSensitivity& row) {
     estimate.high = figure->high;
   };
   put(threshold, fit.threshold_75_g);
+  if (const auto fraction = weber_fraction_of(all.back(), weber_fraction)) all.push_back(*fraction);
   put(sensitivity, fit.sensitivity);
   put(indecision, fit.indecision);
   put(lapse, fit.lapse);
@@ -132,11 +136,15 @@ EstimateTable sensitivity_table() {
   return {
       "sensitivity",
       "75 %-correct discrimination thresholds",
-      {key_column("reference_g", "reference g"), key_column("condition", "condition"),
+      {key_column("reference_g", "reference g"),
+       key_column("condition", "condition"),
        column(threshold, Field::n, "n", "n"),
        column(threshold, Field::value, "threshold_75_g", "threshold g"),
        column(threshold, Field::low, "low_g", "95 % low"),
        column(threshold, Field::high, "high_g", "high"),
+       column(weber_fraction, Field::value, "weber_fraction", "Weber fraction", 3),
+       column(weber_fraction, Field::low, "weber_fraction_low"),
+       column(weber_fraction, Field::high, "weber_fraction_high"),
        column(indecision, Field::value, "indecision", "criterion half-width", 2),
        column(indecision, Field::low, "indecision_low"),
        column(indecision, Field::high, "indecision_high"),
@@ -144,14 +152,16 @@ EstimateTable sensitivity_table() {
        json_column(sensitivity, Field::low, "sensitivity_low_per_g"),
        json_column(sensitivity, Field::high, "sensitivity_high_per_g"),
        column(lapse, Field::value, "lapse_rate", "lapse rate", 3),
-       column(lapse, Field::low, "lapse_rate_low"), column(lapse, Field::high, "lapse_rate_high"),
+       column(lapse, Field::low, "lapse_rate_low"),
+       column(lapse, Field::high, "lapse_rate_high"),
        column(sensitivity_sd, Field::value, "sd_log_sensitivity", "", 2),
        json_column(threshold, Field::n_trials, "n_trials"),
        json_column(threshold, Field::identifiable, "identifiable"),
        column(threshold, Field::why, "why", "no threshold: why")},
       "mixed indecision model (left, none, right): each participant has a sensitivity, a criterion "
       "half-width and a side bias; a lapse rate is shared. Threshold: of the median participant in "
-      "a forced choice, free of the criterion. Criterion half-width: in SDs of the internal noise. "
+      "a forced choice, free of the criterion. Weber fraction: threshold by reference. Criterion "
+      "half-width: in SDs of the internal noise. "
       "Intervals: profile likelihood. Thresholds that are not identifiable are not printed.",
       TablePlace::results,
       "sensitivity[]"};
@@ -184,6 +194,7 @@ EstimateTable threshold_table() {
       "with its start",
       TablePlace::report,
       "thresholds[]"};
+  add_weber_fraction(table.columns, weber_fraction);
   for (const auto& [side, name] : {std::pair("from above", "above"), {"from below", "below"}}) {
     EstimateColumn began = column(start, Field::value, fmt::format("start_{}_g", name),
                                   fmt::format("start {} g", name), 1, "-");
@@ -231,6 +242,7 @@ class SensitivitySection final : public Section {
         own.set(interval_g);
         own.n_trials = static_cast<int>(trials_in(answers));
         own.why = why;
+        if (const auto fraction = weber_fraction_of(own, weber_fraction)) all.push_back(*fraction);
         if (const auto jnd = jnds.find(key); jnd != jnds.end())
           put_value(all, of, participant_jnd, jnd->second.jnd_g, jnd->second.censored);
         if (const auto found = results.find(key); found != results.end())

@@ -126,7 +126,9 @@ EstimateTable threshold_exponent_table() {
            column(smallest_exponent, Field::value, "smallest_exponent", "detectable", 2)},
           "exponent of threshold ~ reference^exponent: 0 if thresholds are equal, 1 if they are "
           "proportional to the reference (Weber's law). Detectable: the smallest exponent that "
-          "80 % of studies of this size and spread would find."};
+          "80 % of studies of this size and spread would find.",
+          TablePlace::results,
+          "threshold_exponents[]"};
 }
 
 }  // namespace heft
