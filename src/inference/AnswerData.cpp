@@ -236,7 +236,18 @@ NamedFit fit_people(const AnswerGroup& group) {
   named.fit.n_levels = group.answers.size();
   for (const auto& [person, answers] : group.people)
     named.people[person] = own_threshold(answers, mixed.own(person));
+  named.goodness.why = "people differ: heft analyse checks what the mixed model predicts";
   return named;
+}
+
+NamedFit fit_one(const AnswerGroup& group, FitModel model, const FitOptions& options) {
+  const AnswersByLevel& answers = group.answers;
+  if (model == FitModel::indecision) {
+    const Fit fit = fit_indecision(answers, options);
+    return {group.name, fit, {}, check_indecision(answers, options, fit)};
+  }
+  const Fit fit = fit_psychometric(answers, options);
+  return {group.name, fit, {}, check_psychometric(answers, options, fit)};
 }
 
 // Staircases show larger levels to less sensitive people, so pooling overestimates the threshold.
@@ -263,12 +274,7 @@ FittedAnswers fit_answers(std::string_view text, const std::string& file,
   FittedAnswers fitted;
   if (!request.person) fitted.warning = warning_of_pooled(groups, model);
   for (const AnswerGroup& group : groups)
-    if (request.person)
-      fitted.fits.push_back(fit_people(group));
-    else
-      fitted.fits.push_back({group.name, model == FitModel::indecision
-                                             ? fit_indecision(group.answers, options)
-                                             : fit_psychometric(group.answers, options)});
+    fitted.fits.push_back(request.person ? fit_people(group) : fit_one(group, model, options));
   return fitted;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "inference/MixedIndecision.h"
+#include "inference/checks/GoodnessOfFit.h"
 
 namespace heft {
 
@@ -52,6 +53,7 @@ struct NamedFit {
   std::optional<std::string> group;
   Fit fit;
   std::map<std::string, OwnThreshold> people{};  ///< of a mixed fit
+  GoodnessOfFit goodness{};
 };
 
 struct FittedAnswers {

@@ -9,6 +9,7 @@
 #include "inference/Fit.h"
 #include "inference/IndecisionLikelihood.h"
 #include "inference/MaximumLikelihood.h"
+#include "inference/checks/GoodnessOfFit.h"
 #include "psychophysics/ObserverModels.h"
 
 namespace heft {
@@ -268,18 +269,34 @@ FittedParameter threshold(const FittedParameter& s) {
   return result;
 }
 
+std::vector<ParameterBounds> bounds_of(const FitOptions& options) {
+  return {{-infinity, infinity, true, true},
+          {0, infinity, true, true},
+          {-infinity, infinity, true, true},
+          {options.lapse.value_or(0), options.lapse.value_or(most_free_lapse)}};
+}
 }  // namespace
+
+double refitted_indecision(const AnswersByLevel& answers, const FitOptions& options,
+                           const Fit& near) {
+  std::vector<ParameterBounds> bounds = bounds_of(options);
+  for (ParameterBounds& one : bounds) one.with_interval = false;
+  const auto value = [&](const char* name) { return near.parameter(name).value.value_or(0); };
+  const LevelAxis axis(answers);
+  const Parameters from(Eigen::Vector4d(value("sensitivity") * axis.unit_g, value("indecision"),
+                                        value("bias") + value("sensitivity") * axis.mean_g,
+                                        value("lapse")));
+  const LikelihoodFit found =
+      maximize_turned(levels_of(answers, axis), Eigen::Matrix4d::Identity(), bounds, {{from}});
+  return std::max(found.log_likelihood, log_likelihood_of_steps(answers, found));
+}
 
 Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
   Fit fit{{}, std::nullopt, trials_in(answers), answers.size(), too_little_chosen(answers)};
-  const ParameterBounds lapses{options.lapse.value_or(0), options.lapse.value_or(most_free_lapse)};
-  const std::vector<ParameterBounds> bounds{{-infinity, infinity, true, true},
-                                            {0, infinity, true, true},
-                                            {-infinity, infinity, true, true},
-                                            lapses};
+  const std::vector<ParameterBounds> bounds = bounds_of(options);
   LikelihoodFit found{std::vector<LikelihoodParameter>(indecision_names.size()), 0};
   for (auto& unknown : found.parameters) unknown.exists = false;
-  found.parameters[lapse].value = lapses.low;
+  found.parameters[lapse].value = bounds[lapse].low;
   double unit = 1;
   if (fit.n_trials > 0) {
     const LevelAxis axis(answers);

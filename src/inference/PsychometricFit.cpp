@@ -6,6 +6,7 @@
 
 #include "inference/Fit.h"
 #include "inference/MaximumLikelihood.h"
+#include "inference/checks/GoodnessOfFit.h"
 
 namespace heft {
 
@@ -259,13 +260,17 @@ std::vector<FittedParameter> unknown_parameters(const std::vector<ParameterBound
   }
   return parameters;
 }
+
+std::vector<ParameterBounds> bounds_of(const FitOptions& options) {
+  return {{-furthest_place, furthest_place},
+          {0, infinity},
+          share_bounds(options.guess, options.lapse.value_or(0)),
+          share_bounds(options.lapse, options.guess.value_or(0))};
+}
 }  // namespace
 
 Fit fit_psychometric(const AnswersByLevel& answers, const FitOptions& options) {
-  const std::vector<ParameterBounds> bounds{{-furthest_place, furthest_place},
-                                            {0, infinity},
-                                            share_bounds(options.guess, options.lapse.value_or(0)),
-                                            share_bounds(options.lapse, options.guess.value_or(0))};
+  const std::vector<ParameterBounds> bounds = bounds_of(options);
   Fit fit{unknown_parameters(bounds), std::nullopt, trials_in(answers), answers.size(),
           too_little(answers)};
   if (fit.n_trials == 0) return fit;
@@ -290,11 +295,34 @@ Fit fit_psychometric(const AnswersByLevel& answers, const FitOptions& options) {
   return fit;
 }
 
+double refitted_psychometric(const AnswersByLevel& answers, const FitOptions& options,
+                             const Fit& near) {
+  std::vector<ParameterBounds> bounds = bounds_of(options);
+  for (ParameterBounds& one : bounds) one.with_interval = false;
+  const Levels levels(answers, options.function);
+  const PsychometricFunction& function = options.function;
+  const Parameters from(
+      Eigen::Vector4d(levels.to_axis(function.place(*near.parameter("threshold").value)),
+                      function.steepness(*near.parameter("slope").value) * levels.range(),
+                      *near.parameter("guess").value, *near.parameter("lapse").value));
+  const LikelihoodFit found = maximize(levels, function.shape, bounds, {{from}});
+  return std::max({found.log_likelihood, log_likelihood_of_flat(answers, bounds),
+                   log_likelihood_of_step(answers, function, found)});
+}
+
+namespace {
+bool has_both_signs(const AnswersByLevel& answers) {
+  return answers.begin()->first < 0;
+}
+}  // namespace
+
+FitOptions forced_choice_options(const AnswersByLevel& answers) {
+  return {.guess = has_both_signs(answers) ? fixed_lapse : 0.5, .lapse = fixed_lapse};
+}
+
 ForcedChoiceFit fit_forced_choice(const AnswersByLevel& answers) {
-  const bool both_signs = answers.begin()->first < 0;
-  const Fit fit =
-      fit_psychometric(answers, {.guess = both_signs ? fixed_lapse : 0.5, .lapse = fixed_lapse});
-  if (!both_signs) return {fit.parameter("threshold"), {}, fit.why};
+  const Fit fit = fit_psychometric(answers, forced_choice_options(answers));
+  if (!has_both_signs(answers)) return {fit.parameter("threshold"), {}, fit.why};
   FittedParameter threshold = fit.parameter("slope");
   for (auto* figure : {&threshold.value, &threshold.low, &threshold.high})
     if (*figure) **figure *= z_75;

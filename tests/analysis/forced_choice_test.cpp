@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 
 #include <map>
+#include <memory>
 
 #include "Figures.h"
 #include "MadeUpSessions.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 namespace {
@@ -102,6 +104,45 @@ TEST(WeberFraction, OfAReferenceOfNoMassIsNone) {
   SessionData data = session(1, "a");
   add_choices(data, heavier, 0);
   EXPECT_FALSE(find_estimate(summarized({data}).estimates, "forced_weber_fraction"));
+}
+
+// Whoever ran constant stimuli; the goodness itself is tested in tests/inference.
+TEST(ForcedChoice, FitsOfConstantStimuliAreJudged) {
+  ConstantConfig config;
+  config.levels = {-160, -80, -40, 40, 80, 160};
+  config.n_per_level = 40;
+  SessionData constant = chooser(1, "constant", both_signs);
+  constant.staircases["constant"] = {std::make_shared<const Procedure>("constant", config)};
+  SessionData lapsing = session(2, "lapsing");
+  add_choices(lapsing,
+              {{-160, {29, 11}},
+               {-80, {30, 10}},
+               {-40, {31, 9}},
+               {40, {10, 30}},
+               {80, {9, 31}},
+               {160, {11, 29}}},
+              200);
+  lapsing.staircases = constant.staircases;
+  SessionData adaptive = chooser(3, "adaptive", both_signs);
+  UpDownConfig steps;
+  steps.start = 160;
+  steps.step = 40;
+  steps.stop_reversals = 8;
+  steps.stop_trials = 60;
+  adaptive.staircases["constant"] = {std::make_shared<const Procedure>("constant", steps)};
+  const SessionData unknown = chooser(4, "unknown", both_signs);
+  const Summary summary = summarized({constant, lapsing, adaptive, unknown});
+  const auto p_of = [&](const char* participant) {
+    return figure(summary, "forced_fit_p", {{"participant", participant}});
+  };
+  EXPECT_GT(*p_of("constant").value, 0.05);
+  EXPECT_LT(*p_of("lapsing").value, 0.05);
+  EXPECT_FALSE(p_of("adaptive").value);
+  EXPECT_EQ(p_of("adaptive").why, "an adaptive procedure chose the differences by earlier answers");
+  EXPECT_EQ(p_of("unknown").why, "the procedure that chose the differences is unknown");
+  const StudyEstimate rejected = figure(summary, "forced_fits_rejected");
+  EXPECT_EQ(rejected.value, 1);
+  EXPECT_EQ(rejected.n, 2);
 }
 
 TEST(ForcedChoice, OfACoinHasNoThresholdButAReason) {

@@ -106,6 +106,22 @@ class ConstantStimuli(SessionTest):
         self.assertIn(":11:11", refused)
         self.assertIn("weigh 0 g or less", refused)
 
+    def test_fits_of_forced_choices_are_judged_where_stimuli_were_constant(self):
+        self.protocol.write_text(
+            'title = "Forced choices"\n[[block]]\nkind = "comparison"\nname = "comparison"\n'
+            'answers = "heavier"\n[[block.staircase]]\nname = "constant"\nkind = "constant"\n'
+            "reference_g = 400\nlevels = [-300, -200, -100, 100, 200, 300]\nn_per_level = 12\n"
+            '[[block.staircase]]\nname = "adaptive"\nreference_g = 200\nstart = 100\nstep = 20\n'
+            "floor = 0\nceiling = 400\nstop_reversals = 8\nstop_trials = 40\n")
+        self.run_heft("simulate", self.protocol, "--responder", "simulated", "--participants", 3,
+                      "--seed", 3, "--db", self.db)
+        rows = {row["reference_g"]: row for row in self.analysed(self.db)["forced_choice"]}
+        self.assertEqual(rows[400]["n_fits_judged"], rows[400]["n"])
+        self.assertGreater(rows[400]["n"], 0)
+        self.assertEqual(rows[200]["n_fits_judged"], 0)
+        self.assertIsNone(rows[200]["n_fits_rejected"])
+        self.assertIn("an adaptive procedure chose the differences", rows[200]["fits_why"])
+
     def test_a_session_of_constant_stimuli_alone_has_no_jnd_at_all(self):
         self.protocol.write_text(PROTOCOL[:PROTOCOL.rindex("[[block.staircase]]")])
         self.run_heft(*self.words(self.db))

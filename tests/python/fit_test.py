@@ -30,7 +30,8 @@ def as_json(fit, group):
     found = {"group": group,
              "parameters": {name: one._asdict() for name, one in fit.parameters.items()},
              "log_likelihood": fit.log_likelihood, "n_trials": fit.n_trials,
-             "identifiable": fit.identifiable, "why": fit.why}
+             "identifiable": fit.identifiable, "why": fit.why,
+             "goodness_of_fit": fit.goodness_of_fit._asdict()}
     if "threshold_75_g" in fit.parameters:
         found["threshold_75_g"] = fit.parameters["threshold_75_g"].value
     if fit.people:

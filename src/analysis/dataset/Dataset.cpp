@@ -167,8 +167,7 @@ constexpr std::array counted_kinds{event_kind<Note>,         event_kind<Deviatio
 std::map<std::string, StaircaseRun> staircases_in(const Protocol& protocol) {
   std::map<std::string, StaircaseRun> runs;
   for (const Block& block : protocol.blocks)
-    if (const auto* comparison = block_as<Comparison::Block>(block);
-        comparison && comparison->has_three_answers())
+    if (const auto* comparison = block_as<Comparison::Block>(block))
       for (const ReferenceStaircase& entry : comparison->staircases)
         runs[entry.staircase.name()] = {
             std::make_shared<const Procedure>(entry.staircase),

@@ -9,6 +9,8 @@
 #include "analysis/measures/Sensitivity.h"
 #include "analysis/measures/ShareByLevel.h"
 #include "analysis/report/Notes.h"
+#include "inference/checks/GoodnessOfFit.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 
@@ -31,6 +33,17 @@ constexpr Measure pse{
     "forced_pse", "g", "point of subjective equality",
     "difference in mass at which the comparison is chosen in half of the forced choices, from the "
     "same fit; where no comparison was lighter than its reference it is not estimated"};
+constexpr Measure deviance{
+    "forced_deviance", "", "deviance",
+    "of the fit from the saturated model, with one free share for each difference, where "
+    "differences were constant stimuli"};
+constexpr Measure fit_p{
+    "forced_fit_p", "", "p of the fit",
+    "share of 1000 simulated data sets of the same design, from the fitted curve and fitted again, "
+    "whose deviance is as large; small: the curve does not describe the answers"};
+constexpr Measure rejected{"forced_fits_rejected", "", "fits rejected",
+                           "number of participants whose fit has p < .05, of those whose fit can "
+                           "be judged; about 5 % are expected if all curves are right"};
 constexpr Measure chosen{"forced_chosen", "%", "the comparison",
                          "share of forced choices at a difference in which the comparison was "
                          "chosen, over participants"};
@@ -54,26 +67,39 @@ class ForcedChoiceSection final : public Section {
       const Compared compared{*plan.reference_g, plan.condition};
       const double level_g = *plan.level_g == 0 ? 0 : *plan.level_g;  // no -0
       people_[compared][data.participant()][level_g][comparison ? 1 : 0] += 1;
+      if (const std::string why = why_not_constant(data, plan); !why.empty())
+        not_constant_[{compared, data.participant()}] = why;
     }
   }
 
   Estimates of_participants(const Summary&) const override {
     Estimates all;
     for (const auto& [compared, people] : people_)
-      for (const auto& [participant, answers] : people)
+      for (const auto& [participant, answers] : people) {
         put_fit(all, compared, participant, answers);
+        put_goodness(all, compared, participant, answers);
+      }
     for (StudyEstimate& one : own_exponents(all, threshold, exponent)) all.push_back(one);
     return all;
   }
 
   void put(Summary& summary) override {
+    for (const auto& [compared, people] : people_)
+      for (const auto& [participant, answers] : people)
+        goodness_[{compared, participant}] = goodness_of(compared, participant, answers);
     const Estimates own = of_participants(summary);
     std::map<std::tuple<std::optional<double>, std::string, std::string_view>,
              std::vector<const StudyEstimate*>>
         groups;
     for (const StudyEstimate& one : own)
       groups[{one.reference_g, one.condition, one.measure->name}].push_back(&one);
-    for (const auto& [key, people] : groups) summary.estimates.push_back(over_people(people));
+    for (const auto& [key, people] : groups) {
+      const Measure* measure = people.front()->measure;
+      if (measure == &fit_p)
+        summary.estimates.push_back(n_rejected(people));
+      else if (measure != &deviance)
+        summary.estimates.push_back(over_people(people));
+    }
     for (const auto& [compared, people] : people_) shares.put(summary.estimates, compared, people);
   }
 
@@ -90,7 +116,8 @@ class ForcedChoiceSection final : public Section {
          column(threshold, Field::n_trials, "n_trials", "trials"),
          column(threshold, Field::value, "threshold_75_g", "threshold g")},
         "cumulative normal fitted to each participant, with 2 % lapses; mean over participants "
-        "with Student's t interval, of one alone the fit's",
+        "with Student's t interval, of one alone the fit's. Fits judged: those of constant "
+        "stimuli; rejected: p < .05 of the deviance",
         TablePlace::results,
         "forced_choice[]"};
     add_interval(thresholds.columns, threshold, "low_g", "high_g", 1);
@@ -98,6 +125,9 @@ class ForcedChoiceSection final : public Section {
     thresholds.columns.push_back(column(pse, Field::value, "pse_g", "PSE g"));
     add_interval(thresholds.columns, pse, "pse_low_g", "pse_high_g", 1);
     thresholds.columns.push_back(column(threshold, Field::why, "why", "no threshold: why"));
+    thresholds.columns.push_back(column(rejected, Field::n, "n_fits_judged", "fits judged"));
+    thresholds.columns.push_back(column(rejected, Field::value, "n_fits_rejected", "rejected", 0));
+    thresholds.columns.push_back(column(rejected, Field::why, "fits_why", "not judged: why"));
     EstimateTable people{
         "forced_choice_by_participant",
         "Each participant's 75 % threshold in forced choices",
@@ -113,6 +143,9 @@ class ForcedChoiceSection final : public Section {
         TablePlace::csv};
     people.participants = true;
     add_weber_fraction(people.columns, weber_fraction);
+    people.columns.push_back(column(deviance, Field::value, "deviance", "deviance", 2));
+    people.columns.push_back(column(fit_p, Field::value, "fit_p", "p of the fit", 3));
+    people.columns.push_back(column(fit_p, Field::why, "fit_why", "not judged: why"));
     return {
         thresholds,
         exponent_table("forced_choice_exponents",
@@ -125,6 +158,16 @@ class ForcedChoiceSection final : public Section {
   std::vector<ChartSpec> charts() const override { return {shares.chart()}; }
 
  private:
+  // Empty: the difference was chosen beforehand, as that of a catch trial is.
+  static std::string why_not_constant(const SessionData& data, const TrialPlan& plan) {
+    if (plan.staircase.empty()) return "";
+    const auto found = data.staircases.find(plan.staircase);
+    if (found == data.staircases.end())
+      return "the procedure that chose the differences is unknown";
+    if (found->second.before->get_if<Constant>()) return "";
+    return "an adaptive procedure chose the differences by earlier answers";
+  }
+
   static StudyEstimate own_estimate(const Measure& measure, const Compared& compared,
                                     const std::string& participant, const AnswersByLevel& answers) {
     StudyEstimate own{&measure, "comparison", compared.condition, compared.reference_g};
@@ -152,7 +195,43 @@ class ForcedChoiceSection final : public Section {
     if (found.pse) put(pse, *found.pse);
   }
 
+  GoodnessOfFit goodness_of(const Compared& compared, const std::string& participant,
+                            const AnswersByLevel& answers) const {
+    const auto why = not_constant_.find({compared, participant});
+    return why == not_constant_.end() ? check_forced_choice(answers)
+                                      : GoodnessOfFit{.why = why->second};
+  }
+
+  void put_goodness(Estimates& all, const Compared& compared, const std::string& participant,
+                    const AnswersByLevel& answers) const {
+    const GoodnessOfFit& found = goodness_.at({compared, participant});
+    for (const auto& [measure, value] : {std::pair(&deviance, found.deviance), {&fit_p, found.p}}) {
+      StudyEstimate& own = all.emplace_back(own_estimate(*measure, compared, participant, answers));
+      own.value = value;
+      own.why = found.why;
+    }
+  }
+
+  // @param people their p
+  static StudyEstimate n_rejected(const std::vector<const StudyEstimate*>& people) {
+    StudyEstimate count = *people.front();
+    count.measure = &rejected;
+    count.participant.clear();
+    count.value.reset();
+    count.n = count.n_trials = 0;
+    for (const StudyEstimate* own : people) {
+      count.n_trials += own->n_trials;
+      if (!own->value) continue;
+      count.n += 1;
+      count.value = count.value.value_or(0) + (*own->value < 0.05 ? 1 : 0);
+    }
+    if (count.n > 0) count.why.clear();
+    return count;
+  }
+
   std::map<Compared, AnswersByPerson> people_;
+  std::map<std::pair<Compared, std::string>, std::string> not_constant_;  // and why
+  std::map<std::pair<Compared, std::string>, GoodnessOfFit> goodness_;    // it takes a while
 };
 }  // namespace
 

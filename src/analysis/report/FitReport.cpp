@@ -23,6 +23,17 @@ std::string title(const NamedFit& named) {
   return text;
 }
 
+std::string in_words(const GoodnessOfFit& goodness) {
+  if (!goodness.deviance) return fmt::format("Goodness of fit can't be judged: {}.", goodness.why);
+  return fmt::format(
+      "Goodness of fit: deviance {:.2f} ({} df), p = {:.3f} by {} simulated data sets, if levels "
+      "were chosen beforehand. {}",
+      *goodness.deviance, goodness.degrees_of_freedom, *goodness.p, goodness.n_simulated,
+      goodness.fits()
+          ? "The model is not rejected."
+          : "The model is rejected: thresholds and intervals are those of a wrong curve.");
+}
+
 Table table_of(const NamedFit& named) {
   Table table{"fit", title(named), {}, {}, ""};
   table.columns = {{"parameter", "parameter"}, {"value", "estimate"}, {"se", "SE"},
@@ -31,7 +42,8 @@ Table table_of(const NamedFit& named) {
     table.rows.push_back({word(parameter.name), figure(parameter.value), figure(parameter.se),
                           figure(parameter.low), figure(parameter.high),
                           parameter.fixed ? word("fixed") : word(" ")});
-  if (!named.fit.identifiable()) table.note = fmt::format("No threshold: {}.", named.fit.why);
+  table.note = named.fit.identifiable() ? in_words(named.goodness)
+                                        : fmt::format("No threshold: {}.", named.fit.why);
   return table;
 }
 
@@ -73,6 +85,16 @@ ordered_json object_of(const OwnThreshold& own) {
   return object;
 }
 
+ordered_json object_of(const GoodnessOfFit& goodness) {
+  const bool is_judged = goodness.deviance.has_value();
+  return {{"deviance", or_null(goodness.deviance)},
+          {"degrees_of_freedom",
+           is_judged ? ordered_json(goodness.degrees_of_freedom) : ordered_json(nullptr)},
+          {"p", or_null(goodness.p)},
+          {"n_simulated", goodness.n_simulated},
+          {"why", is_judged ? ordered_json(nullptr) : ordered_json(goodness.why)}};
+}
+
 ordered_json object_of(const NamedFit& named) {
   const Fit& fit = named.fit;
   ordered_json object, parameters;
@@ -86,6 +108,7 @@ ordered_json object_of(const NamedFit& named) {
   object["n_trials"] = static_cast<std::int64_t>(fit.n_trials);
   object["identifiable"] = fit.identifiable();
   object["why"] = fit.identifiable() ? nullptr : ordered_json(fit.why);
+  object["goodness_of_fit"] = object_of(named.goodness);
   for (const auto& [person, own] : named.people) object["people"][person] = object_of(own);
   return object;
 }

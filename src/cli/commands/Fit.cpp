@@ -60,7 +60,10 @@ void add_fit(Command& app) {
        "rate that all share, gives figures of the median person and each one's threshold.",
        "",
        "Maximum-likelihood estimates; SE from the observed information; 95 % profile intervals.",
-       "If the threshold is not identifiable, the reason is printed instead."});
+       "If the threshold is not identifiable, the reason is printed instead.",
+       "Goodness of fit: deviance from the saturated model; p from 1000 data sets of the same",
+       "design, simulated from the fit and refitted. Not judged if a level has fewer than 5",
+       "trials, or the numbers are very unequal: an adaptive procedure may have chosen them."});
   command.add_option("DATA.csv", &options->data, "the answers").required();
   command.add_option("--model", &options->request.model, "the model to fit")
       .required()

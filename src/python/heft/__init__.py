@@ -19,11 +19,11 @@ simulate     sessions of a protocol with simulated participants
 Mistakes in files, data and options are a ValueError with the message of the program heft.
 """
 from ._heft import version as __version__
-from .fits import Fit, FittedParameter, PersonThreshold, fit
+from .fits import Fit, FittedParameter, GoodnessOfFit, PersonThreshold, fit
 from .log import read_log
 from .procedure import Estimate, ParameterPosterior, Procedure, Reversal, Staircase, Trial
 from .program import simulate
 
-__all__ = ["Estimate", "Fit", "FittedParameter", "ParameterPosterior", "PersonThreshold",
-           "Procedure", "Reversal", "Staircase", "Trial", "__version__", "fit", "read_log",
-           "simulate"]
+__all__ = ["Estimate", "Fit", "FittedParameter", "GoodnessOfFit", "ParameterPosterior",
+           "PersonThreshold", "Procedure", "Reversal", "Staircase", "Trial", "__version__", "fit",
+           "read_log", "simulate"]

@@ -34,6 +34,16 @@ class PersonThreshold(NamedTuple):
     why: str | None  #: it is not identifiable
 
 
+class GoodnessOfFit(NamedTuple):
+    """Deviance from the saturated model; None: it can't be judged."""
+
+    deviance: float | None
+    degrees_of_freedom: int | None
+    p: float | None  #: share of simulated and refitted data sets with a deviance as large
+    n_simulated: int
+    why: str | None  #: it can't be judged
+
+
 class Fit(NamedTuple):
     """A maximum-likelihood fit.
 
@@ -48,6 +58,7 @@ class Fit(NamedTuple):
     identifiable: bool  #: there is a threshold
     why: str | None  #: there is none
     people: dict[str, PersonThreshold]  #: with person, each one's threshold
+    goodness_of_fit: GoodnessOfFit
 
 
 @overload
@@ -111,4 +122,5 @@ def _fit_of(found: dict[str, Any]) -> Fit:
         parameters={name: FittedParameter(**one) for name, one in found["parameters"].items()},
         log_likelihood=found["log_likelihood"], n_trials=found["n_trials"],
         identifiable=found["identifiable"], why=found["why"],
-        people={name: PersonThreshold(**one) for name, one in found.get("people", {}).items()})
+        people={name: PersonThreshold(**one) for name, one in found.get("people", {}).items()},
+        goodness_of_fit=GoodnessOfFit(**found["goodness_of_fit"]))

@@ -118,7 +118,7 @@ class Fit(unittest.TestCase):
     def test_json_has_the_names_of_the_contract(self):
         (fit,) = self.fits_of(RISING, *PSYCHOMETRIC)
         self.assertEqual(list(fit), ["group", "parameters", "log_likelihood", "n_trials",
-                                     "identifiable", "why"])
+                                     "identifiable", "why", "goodness_of_fit"])
         self.assertEqual((fit["group"], fit["n_trials"], fit["identifiable"], fit["why"]),
                          (None, 100, True, None))
         self.assertEqual(list(fit["parameters"]), ["threshold", "slope", "guess", "lapse"])
@@ -128,6 +128,17 @@ class Fit(unittest.TestCase):
         self.assertLess(threshold["value"], threshold["high"])
         self.assertEqual(fit["parameters"]["guess"],
                          {"value": 0.0, "se": None, "low": None, "high": None, "fixed": True})
+
+    def test_goodness_of_fit_is_printed_where_it_can_be_judged(self):
+        _, text, _ = self.run_on(RISING, *PSYCHOMETRIC)
+        self.assertRegex(text, r"Goodness of fit: deviance [\d.]+ \(3 df\), p = 0\.\d+ by 1000 simulated")
+        adaptive = "x,n_positive,n\n1,0,2\n2,4,18\n3,16,24\n4,14,15\n5,6,6\n"
+        code, text, _ = self.run_on(adaptive, *PSYCHOMETRIC)
+        self.assertEqual(code, 0)
+        self.assertIn("Goodness of fit can't be judged: levels have 2 to 24 trials, as where an adaptive",
+                      " ".join(text.split()))
+        (fit,) = self.fits_of(adaptive, *PSYCHOMETRIC)
+        self.assertEqual((fit["goodness_of_fit"]["deviance"], fit["goodness_of_fit"]["p"]), (None, None))
 
     def test_indecision_has_a_threshold_or_null(self):
         choices = "level_g,answer\n" + "".join(

@@ -1,0 +1,56 @@
+// Whether a fitted curve describes the answers at all: the deviance from the saturated model, which
+// has one free share for each level, against the deviances of simulated answers. These have the
+// fitted curve's probabilities at the same levels, equally often, and are fitted again (parametric
+// bootstrap: Wichmann & Hill 2001). The chi-square distribution is no substitute with few trials.
+//
+// This holds where levels were chosen beforehand (constant stimuli). Where an adaptive procedure
+// chose them by earlier answers, other answers would have led to other levels.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "inference/Fit.h"
+
+namespace heft {
+
+/// Fewer trials at a level say too little about the share there.
+inline constexpr double least_trials_at_level = 5;
+/// How many times as many trials one level may have as another: constant stimuli are shown equally
+/// often or nearly, an adaptive procedure shows most where it ends.
+inline constexpr double most_unequal_levels = 4;
+
+struct GoodnessOfFit {
+  std::optional<double> deviance{};  ///< none: `why` says why
+  int degrees_of_freedom = 0;        ///< free shares of the saturated model less free parameters
+  /// The share of simulated answers whose deviance is as large, counting those that were seen.
+  std::optional<double> p{};
+  int n_simulated = 0;
+  std::string why{};  ///< it can't be judged
+
+  bool fits() const { return !p || *p >= 0.05; }
+};
+
+/// @param fit of these answers with these options
+GoodnessOfFit check_psychometric(const AnswersByLevel& answers, const FitOptions& options,
+                                 const Fit& fit);
+GoodnessOfFit check_indecision(const AnswersByLevel& answers, const FitOptions& options,
+                               const Fit& fit);
+/// Of fit_forced_choice.
+GoodnessOfFit check_forced_choice(const AnswersByLevel& answers);
+
+// How likely other answers at a fit's levels are once they are fitted, too: a search that begins at
+// the first fit, without intervals and reasons.
+
+/// As fit_psychometric; in PsychometricFit.cpp. @param near identifiable, with these options
+double refitted_psychometric(const AnswersByLevel& answers, const FitOptions& options,
+                             const Fit& near);
+
+/// As fit_indecision; in IndecisionFit.cpp. @param near identifiable, with these options
+double refitted_indecision(const AnswersByLevel& answers, const FitOptions& options,
+                           const Fit& near);
+
+/// What fit_forced_choice fits with.
+FitOptions forced_choice_options(const AnswersByLevel& answers);
+
+}  // namespace heft
