@@ -65,11 +65,9 @@ const std::vector<Broken> broken_staircases{
      {"masses_g together with [[block.staircase]]"}},
     {"weightless", {"floor = 10 ", "floor = ^0 "}, {"floor has 0", "mass of the cube"}},
     {"lighter_than_nothing",
-     {"from = -160, to = 160", "from = ^-200, to = 160"},
+     {"levels = { from = -160, to = 160", "levels = ^{ from = -200, to = 160"},
      {"levels has -200", "weigh 0 g"}},
-    {"nothing_to_choose",
-     {"kind = \"quest_plus\"", "kind = ^\"quest_minus\""},
-     {"quest_minus"}},
+    {"no_procedure", {"kind = \"quest_plus\"", "kind = ^\"quest_minus\""}, {"quest_minus"}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Each, BrokenJudgmentStaircase, testing::ValuesIn(broken_staircases),
