@@ -29,13 +29,14 @@ Parameters within(Parameters at, const std::vector<ParameterBounds>& bounds) {
 
 PopulationLikelihood::PopulationLikelihood(const std::vector<std::vector<LevelAnswers>>& people)
     : bounds_(n_population_parameters) {
-  const auto bound = [this](PopulationParameter i, double low, double high, double longest_step) {
+  const auto bound = [this](std::size_t i, double low, double high, double longest_step) {
     bounds_[i] = {.low = low, .high = high, .longest_step = longest_step};
   };
   bound(mean_log_sensitivity, -9, 6, 1);
   bound(mean_log_criterion, -7, 9, 1);  // beyond all levels at any sensitivity
-  for (const auto log_sd : {log_sd_sensitivity, log_sd_criterion, log_sd_bias})
-    bound(log_sd, std::log(0.05), std::log(2), 0.7);
+  bound(log_sd_sensitivity, std::log(0.05), std::log(2), 0.7);
+  bound(log_sd_criterion, std::log(0.05), std::log(2), 0.7);
+  bound(log_sd_bias, std::log(0.05), std::log(2), 0.7);
   bound(arctanh_correlation, -1.5, 1.5, 0.5);
   bound(shared_lapse, 0, most_lapses, 0.05);
   for (const std::vector<LevelAnswers>& answers : people) {
