@@ -316,6 +316,29 @@ void Jnds::put_means(FigureModel model) {
               static_cast<int>(as_logged_g_.size())};
 }
 
+void set_mean(StudyEstimate& estimate, const Jnds& jnds) {
+  estimate.value = jnds.mean;
+  estimate.sd = jnds.sd;
+  estimate.set(jnds.interval);
+  estimate.n = jnds.n();
+  if (jnds.kind != MeanKind::none) estimate.method = name_of(jnds.kind);
+}
+
+void put_participants(Estimates& all, StudyEstimate of, const Jnds& jnds) {
+  of.published = nullptr;
+  const auto put = [&](const std::string& participant) -> StudyEstimate& {
+    of.participant = participant;
+    return all.emplace_back(of);
+  };
+  for (const ParticipantJnd& one : jnds.participants) {
+    StudyEstimate& estimate = put(one.participant);
+    estimate.value = one.jnd_g;
+    estimate.censored = one.censored;
+    estimate.n = 1;
+  }
+  for (const std::string& participant : jnds.missing) put(participant).why = "indeterminate";
+}
+
 int Jnds::n_censored(Censored direction) const {
   return static_cast<int>(std::ranges::count(participants, direction, &ParticipantJnd::censored));
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "analysis/dataset/Dataset.h"
+#include "analysis/dataset/StudyEstimate.h"
 #include "inference/CensoredMean.h"
 #include "inference/Statistics.h"
 
@@ -92,6 +93,11 @@ struct Jnds : FigureSummary {
  private:
   std::vector<double> as_logged_g_;
 };
+
+/// Their mean and its interval into an estimate.
+void set_mean(StudyEstimate& estimate, const Jnds& jnds);
+/// Each one's, otherwise as an estimate.
+void put_participants(Estimates& all, StudyEstimate of, const Jnds& jnds);
 
 /// JNDs of staircases from above and from below at one reference. Their difference measures the
 /// effect of the start. A participant without both in one session is missing.

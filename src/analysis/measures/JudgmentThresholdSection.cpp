@@ -32,11 +32,7 @@ class JudgmentThresholdSection final : public Section {
     for (const ReferenceJnd& row : jnds_) {
       const Jnds& jnds = row.overall;
       StudyEstimate mean = at(threshold, row.compared);
-      mean.value = jnds.mean;
-      mean.sd = jnds.sd;
-      mean.set(jnds.interval);
-      mean.n = jnds.n();
-      if (jnds.kind != MeanKind::none) mean.method = name_of(jnds.kind);
+      set_mean(mean, jnds);
       summary.estimates.push_back(std::move(mean));
       const auto put_number = [&](const Measure& measure, std::size_t n) {
         summary.estimates.push_back(at(measure, row.compared));
@@ -50,20 +46,8 @@ class JudgmentThresholdSection final : public Section {
 
   Estimates of_participants(const Summary&) const override {
     Estimates all;
-    for (const ReferenceJnd& row : jnds_) {
-      for (const ParticipantJnd& one : row.overall.participants) {
-        StudyEstimate& own = all.emplace_back(at(threshold, row.compared));
-        own.participant = one.participant;
-        own.value = one.jnd_g;
-        own.censored = one.censored;
-        own.n = 1;
-      }
-      for (const std::string& participant : row.overall.missing) {
-        all.push_back(at(threshold, row.compared));
-        all.back().participant = participant;
-        all.back().why = "indeterminate";
-      }
-    }
+    for (const ReferenceJnd& row : jnds_)
+      put_participants(all, at(threshold, row.compared), row.overall);
     return all;
   }
 

@@ -112,28 +112,9 @@ StudyEstimate estimate_at(const Measure& measure, const ReferenceJnd& row) {
   return estimate;
 }
 
-void put_participants(Estimates& all, StudyEstimate of, const Jnds& jnds) {
-  of.published = nullptr;
-  const auto put = [&](const std::string& participant) -> StudyEstimate& {
-    of.participant = participant;
-    return all.emplace_back(of);
-  };
-  for (const ParticipantJnd& one : jnds.participants) {
-    StudyEstimate& estimate = put(one.participant);
-    estimate.value = one.jnd_g;
-    estimate.censored = one.censored;
-    estimate.n = 1;
-  }
-  for (const std::string& participant : jnds.missing) put(participant).why = "indeterminate";
-}
-
 // The mean of several, and who is censored.
 void put_jnds(Estimates& all, StudyEstimate estimate, const Jnds& jnds) {
-  estimate.value = jnds.mean;
-  estimate.sd = jnds.sd;
-  estimate.set(jnds.interval);
-  estimate.n = jnds.n();
-  if (jnds.kind != MeanKind::none) estimate.method = name_of(jnds.kind);
+  set_mean(estimate, jnds);
   all.push_back(estimate);
   StudyEstimate number{estimate};
   number.sd = number.low = number.high = std::nullopt;
