@@ -88,12 +88,7 @@ class ForcedChoiceSection final : public Section {
       for (const auto& [participant, answers] : people)
         goodness_[{compared, participant}] = goodness_of(compared, participant, answers);
     const Estimates own = of_participants(summary);
-    std::map<std::tuple<std::optional<double>, std::string, std::string_view>,
-             std::vector<const StudyEstimate*>>
-        groups;
-    for (const StudyEstimate& one : own)
-      groups[{one.reference_g, one.condition, one.measure->name}].push_back(&one);
-    for (const auto& [key, people] : groups) {
+    for (const auto& people : together(own)) {
       const Measure* measure = people.front()->measure;
       if (measure == &fit_p)
         summary.estimates.push_back(n_rejected(people));

@@ -71,12 +71,7 @@ class SameDifferentSection final : public Section {
 
   void put(Summary& summary) override {
     const Estimates own = of_participants(summary);
-    std::map<std::tuple<std::optional<double>, std::string, std::string_view>,
-             std::vector<const StudyEstimate*>>
-        groups;
-    for (const StudyEstimate& one : own)
-      groups[{one.reference_g, one.condition, one.measure->name}].push_back(&one);
-    for (const auto& [key, people] : groups) summary.estimates.push_back(over_people(people));
+    for (const auto& people : together(own)) summary.estimates.push_back(over_people(people));
     for (const auto& [compared, people] : people_) shares.put(summary.estimates, compared, people);
   }
 

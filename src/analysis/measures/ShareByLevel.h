@@ -3,7 +3,12 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "analysis/measures/Section.h"
 #include "inference/Fit.h"
@@ -12,6 +17,18 @@ namespace heft {
 
 /// Each participant's two kinds of answers by level; the second kind is counted.
 using AnswersByPerson = std::map<std::string, AnswersByLevel>;
+
+/// Each participant's estimates together that are of one reference, condition and measure.
+inline std::vector<std::vector<const StudyEstimate*>> together(const Estimates& own) {
+  std::map<std::tuple<std::optional<double>, std::string, std::string_view>,
+           std::vector<const StudyEstimate*>>
+      groups;
+  for (const StudyEstimate& one : own)
+    groups[{one.reference_g, one.condition, one.measure->name}].push_back(&one);
+  std::vector<std::vector<const StudyEstimate*>> all;
+  for (auto& [key, people] : groups) all.push_back(std::move(people));
+  return all;
+}
 
 struct ShareByLevel {
   const Measure& share;
