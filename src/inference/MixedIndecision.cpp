@@ -332,16 +332,9 @@ ThresholdContrast threshold_contrast(std::span<const MixedFit* const> fits,
 
 ThresholdContrast threshold_exponent(std::span<const MixedFit* const> fits,
                                      std::span<const double> references_g) {
-  std::vector<double> weights;
-  for (const double reference_g : references_g) weights.push_back(std::log(reference_g));
-  const double mean_log = *mean(weights);
-  double square = 0;
-  for (double& weight : weights) {
-    weight -= mean_log;
-    square += weight * weight;
-  }
-  for (double& weight : weights) weight /= square;
-  return threshold_contrast(fits, weights);
+  std::vector<double> log_references;
+  for (const double reference_g : references_g) log_references.push_back(std::log(reference_g));
+  return threshold_contrast(fits, slope_weights(log_references));
 }
 
 }  // namespace heft

@@ -23,6 +23,18 @@ std::optional<double> sample_sd(std::span<const double> values) {
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 
+std::vector<double> slope_weights(std::span<const double> x) {
+  std::vector<double> weights(x.begin(), x.end());
+  const double mean_x = *mean(x);
+  double square = 0;
+  for (double& weight : weights) {
+    weight -= mean_x;
+    square += weight * weight;
+  }
+  for (double& weight : weights) weight /= square;
+  return weights;
+}
+
 std::optional<Interval> student_t_interval(std::span<const double> values) {
   if (values.size() < 2) return std::nullopt;
   return student_t_interval(*mean(values), *sample_sd(values), static_cast<int>(values.size()));

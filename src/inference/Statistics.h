@@ -21,6 +21,10 @@ std::optional<double> mean(std::span<const double> values);
 /// Standard deviation over n-1; none for fewer than two values, exactly 0 where all are equal.
 std::optional<double> sample_sd(std::span<const double> values);
 
+/// By which the values at some x add up to the slope of the least-squares line. At least two
+/// different x.
+std::vector<double> slope_weights(std::span<const double> x);
+
 /// mean ± t(n-1) * SD / sqrt(n); none for fewer than two values.
 std::optional<Interval> student_t_interval(std::span<const double> values);
 

@@ -1,6 +1,7 @@
 // Weber fractions, and how thresholds grow with the reference, of any task.
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <vector>
 
 #include "analysis/measures/Sensitivity.h"
@@ -18,13 +19,8 @@ std::optional<double> slope_of_logs(const Thresholds& thresholds) {
       y.push_back(std::log(*one->value));
     }
   if (x.size() < 2) return std::nullopt;
-  const double x_mean = *mean(x), y_mean = *mean(y);
-  double xx = 0, xy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    xx += (x[i] - x_mean) * (x[i] - x_mean);
-    xy += (x[i] - x_mean) * (y[i] - y_mean);
-  }
-  return xy / xx;
+  const std::vector<double> weights = slope_weights(x);
+  return std::inner_product(y.begin(), y.end(), weights.begin(), 0.0);
 }
 }  // namespace
 
