@@ -39,11 +39,12 @@ std::vector<std::vector<LevelAnswers>> on_scale(const AnswersByPerson& people, d
 
 /// Sensitivities per largest level: dense around 0, and up to thresholds of a four-hundredth of it.
 constexpr std::size_t n_places = 56, place_of_0 = 20;
+constexpr double dense = 0.5, place_width = 0.2;
 double sensitivity_at(double place) {
-  return 0.5 * std::sinh(0.2 * (place - static_cast<double>(place_of_0)));
+  return dense * std::sinh(place_width * (place - static_cast<double>(place_of_0)));
 }
 double place_of(double sensitivity) {
-  return static_cast<double>(place_of_0) + std::asinh(sensitivity / 0.5) / 0.2;
+  return static_cast<double>(place_of_0) + std::asinh(sensitivity / dense) / place_width;
 }
 using Profile = std::array<double, n_places>;
 
