@@ -25,6 +25,17 @@ inline Tap tap_on(const Control& control, RandomStream& random, double along = 0
           area.y + area.height / 2};
 }
 
+/// None on a control that is not there or takes no tap.
+inline std::optional<Tap> tap_on(const Control* control, RandomStream& random, double along = 0.5) {
+  return control && control->enabled ? std::optional(tap_on(*control, random, along))
+                                     : std::nullopt;
+}
+
+/// Leads on from a page that is no trial.
+inline const Control* onwards(const TappedScreen& screen) {
+  return screen.control(screen.control("more") ? "more" : "next");
+}
+
 /// One block of trials, without consent and other pages.
 inline Protocol protocol_alone(Block block) {
   Protocol protocol = small_protocol();

@@ -38,9 +38,9 @@ class Judge {
 
   std::optional<Tap> operator()(const TappedScreen& screen) {
     const Control* wanted = wanted_on(screen);
-    if (!wanted || !wanted->enabled) return std::nullopt;
+    if (!wanted) return std::nullopt;
     const double along = wanted->slide ? 0.998 * meant_[screen.screen().trial_number] / 100 : 0.5;
-    return testing::tap_on(*wanted, random_, along);
+    return testing::tap_on(wanted, random_, along);
   }
 
   const std::map<int, double>& meant() const { return meant_; }
@@ -48,8 +48,7 @@ class Judge {
  private:
   const Control* wanted_on(const TappedScreen& screen) {
     const ScreenState& state = screen.screen();
-    if (state.screen != Screen::trial)
-      return screen.control(screen.control("more") ? "more" : "next");
+    if (state.screen != Screen::trial) return testing::onwards(screen);
     if (state.faded || !state.can_answer) return nullptr;
     const auto [meant, is_new] = meant_.try_emplace(state.trial_number);
     if (is_new) meant->second = any();

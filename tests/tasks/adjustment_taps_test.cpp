@@ -26,9 +26,7 @@ class Adjuster {
   explicit Adjuster(std::uint64_t seed) : random_(seed, "adjuster") {}
 
   std::optional<Tap> operator()(const TappedScreen& screen) {
-    const Control* wanted = screen.control(wanted_on(screen));
-    if (!wanted || !wanted->enabled) return std::nullopt;
-    return testing::tap_on(*wanted, random_);
+    return testing::tap_on(screen.control(wanted_on(screen)), random_);
   }
 
   /// The steps of each trial, g.

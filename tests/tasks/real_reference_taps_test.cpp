@@ -26,8 +26,7 @@ class Lifter {
 
   std::optional<Tap> operator()(const TappedScreen& screen) {
     const ScreenState& state = screen.screen();
-    if (state.screen != Screen::trial)
-      return tapped(screen.control(screen.control("more") ? "more" : "next"));
+    if (state.screen != Screen::trial) return testing::tap_on(testing::onwards(screen), random_);
     if (state.faded || !state.can_answer) return std::nullopt;
     const auto [meant, is_new] = meant_.try_emplace(state.trial_number);
     if (is_new) meant->second = answers[random_.below(answers.size())];
@@ -35,20 +34,15 @@ class Lifter {
     EXPECT_TRUE(answer);
     if (!state.can_validate) {
       EXPECT_FALSE(answer->enabled);
-      return tapped(screen.control("lifted"));
+      return testing::tap_on(screen.control("lifted"), random_);
     }
-    return tapped(answer);
+    return testing::tap_on(answer, random_);
   }
 
   const std::map<int, std::string>& meant() const { return meant_; }
 
  private:
   static constexpr std::array answers{"cube_1", "select_object", "no_difference"};
-
-  std::optional<Tap> tapped(const Control* control) {
-    if (!control || !control->enabled) return std::nullopt;
-    return testing::tap_on(*control, random_);
-  }
 
   RandomStream random_;
   std::map<int, std::string> meant_;
