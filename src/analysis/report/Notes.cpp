@@ -3,7 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <span>
+
+#include "analysis/dataset/Jnd.h"
+#include "tasks/Comparison.h"
+#include "tasks/Judgment.h"
 
 namespace heft {
 
@@ -64,8 +69,12 @@ void NotesFold::add(const SessionData& data) {
   const SessionHeader& header = data.session.header;
   n_sessions_[data.participant()] += 1;
   protocols_[header.protocol_sha256] = header.protocol_name;
-  for (const EstimateRow& row : data.estimates)
-    if (row.jnd_g) methods_.insert(row.method);
+  for (const std::string_view task : {Comparison::task.name, Judgment::task.name}) {
+    StaircaseFold staircases(task);
+    staircases.add(data);
+    for (const StaircaseResult& result : staircases.results())
+      if (result.jnd_g) methods_[result.compared.block].insert(result.compared.method);
+  }
   if (std::ranges::any_of(data.setups,
                           [](const auto& s) { return s.setup.tracker.name == "mouse"; }))
     dragged_.push_back(fmt::format("{} ({})", data.session.session_id, header.participant));
@@ -94,10 +103,15 @@ std::string NotesFold::protocols_note() const {
       protocols_.size(), some_of(names));
 }
 
-std::string NotesFold::other_methods_note() const {
-  if (methods_.size() < 2) return "";
-  return fmt::format("JNDs are by several methods, in separate rows: {}.",
-                     fmt::join(methods_, ", "));
+std::vector<std::string> NotesFold::methods_notes() const {
+  std::vector<std::string> notes;
+  for (const auto& [block, methods] : methods_)
+    if (methods.size() > 1)
+      notes.push_back(fmt::format(
+          "{} are by several methods, in separate rows: {}.",
+          block.empty() ? "JNDs" : fmt::format("Thresholds of the judgment \"{}\"", block),
+          fmt::join(methods, ", ")));
+  return notes;
 }
 
 // Physics are the same without a held effector; the movements differ.
@@ -122,11 +136,12 @@ std::string NotesFold::pictures_note() const {
 }
 
 std::vector<std::string> NotesFold::result(const Summary& summary) const {
-  std::vector<std::string> notes{
-      unverified_note(summary), withdrawn_note(summary),  simulated_note(summary),
-      missing_note(summary),    unfinished_note(summary), excluded_note(summary),
-      repeated_note(),          protocols_note(),         other_methods_note(),
-      dragged_note(),           pictures_note()};
+  std::vector<std::string> notes{unverified_note(summary), withdrawn_note(summary),
+                                 simulated_note(summary),  missing_note(summary),
+                                 unfinished_note(summary), excluded_note(summary),
+                                 repeated_note(),          protocols_note(),
+                                 dragged_note(),           pictures_note()};
+  std::ranges::move(methods_notes(), std::back_inserter(notes));
   std::erase(notes, "");
   return notes;
 }

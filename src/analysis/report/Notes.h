@@ -49,13 +49,14 @@ class NotesFold {
  private:
   std::string repeated_note() const;
   std::string protocols_note() const;
-  std::string other_methods_note() const;
+  std::vector<std::string> methods_notes() const;
   std::string dragged_note() const;
   std::string pictures_note() const;
 
   std::map<std::string, int> n_sessions_;         // by participant
   std::map<std::string, std::string> protocols_;  // names, by content
-  std::set<std::string> methods_;
+  /// Of the thresholds, by the block of their judgments; JNDs of comparisons have none.
+  std::map<std::string, std::set<std::string>> methods_;
   std::vector<std::string> dragged_;
   PictureCounts pictures_;
 };

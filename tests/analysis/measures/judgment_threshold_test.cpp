@@ -54,6 +54,28 @@ TEST(JudgmentThreshold, IsAMeanOverPeopleApartByBlock) {
   EXPECT_EQ(comparisons.jnds().size(), 1u) << "judgments are no JNDs of comparisons";
 }
 
+TEST(JudgmentThreshold, NotesMethodsOnlyWhereThoseOfOneJudgmentDiffer) {
+  SessionData one = session(1, "one"), other = session(2, "other");
+  for (SessionData* data : {&one, &other}) {
+    add_threshold(*data, "heavy", std::nullopt, 100);
+    add_threshold(*data, "harder", 200, 20);
+    data->estimates.back().method = "quest_plus";
+  }
+  EXPECT_TRUE(summarized({one, other}).notes.empty()) << "they answer different questions";
+  other.estimates.front().method = "psi";
+  EXPECT_THAT(
+      summarized({one, other}).notes,
+      testing::ElementsAre("Thresholds of the judgment \"heavy\" are by several methods, in "
+                           "separate rows: mean_of_reversals, psi."));
+  add_threshold(one, "compared", 200, 77, "comparison");
+  add_threshold(other, "compared", 200, 77, "comparison");
+  EXPECT_THAT(summarized({one, other}).notes, testing::SizeIs(1));
+  other.estimates.back().method = "quest";
+  EXPECT_THAT(summarized({one, other}).notes,
+              testing::Contains("JNDs are by several methods, in separate rows: "
+                                "mean_of_reversals, quest."));
+}
+
 const std::string judgment = R"(title = "t"
 [[block]]
 kind = "judgment"
