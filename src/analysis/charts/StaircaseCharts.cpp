@@ -1,9 +1,9 @@
 // The staircases: those of one session in full, and everybody's as small multiples.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "analysis/charts/Plot.h"
 #include "analysis/report/Tables.h"
@@ -13,8 +13,47 @@ namespace heft {
 namespace {
 constexpr std::size_t most_panels = 150;
 
-std::string name_of_compared(const Compared& compared) {
-  return fmt::format("{:g} g, {}", compared.reference_g, compared.condition);
+// "200 g, C2", "heavy (positive: yes), C2"; the question where its judgment is called otherwise.
+std::string name_of_compared(const Track& track) {
+  const auto& [reference_g, condition, method, block] = track.compared;
+  if (!track.is_judgment()) return fmt::format("{:g} g, {}", reference_g, condition);
+  return fmt::format(
+      "{}{}{}{}, {}", block, track.question == block ? "" : "/" + track.question,
+      track.chooses_cube ? "" : fmt::format(" (positive: {})", fmt::join(track.positive, ", ")),
+      reference_g > 0 ? fmt::format(" at {:g} g", reference_g) : "", condition);
+}
+
+// What the tracks of a chart are of: its words depend on it.
+struct TrackKinds {
+  bool comparisons = false, judgments = false;  // JNDs; thresholds
+  bool of_cube = false, of_positive = false;    // answers
+  bool differences = false, masses = false;     // levels
+
+  void add(const Track& track) {
+    (track.is_judgment() ? judgments : comparisons) = true;
+    (track.chooses_cube ? of_cube : of_positive) = true;
+    (track.compared.reference_g > 0 ? differences : masses) = true;
+  }
+  std::string_view estimate() const {
+    if (!judgments) return "the paper's JND";
+    return comparisons ? "the paper's JND, or the threshold of the judgment" : "the threshold";
+  }
+  // "filled: heavier chosen; cross: lighter chosen; open: no difference"
+  std::string answers() const {
+    if (!of_cube) return "filled: positive answer; open: negative";
+    return fmt::format("filled: heavier chosen{}; cross: lighter chosen; open: no difference{}",
+                       of_positive ? ", or positive" : "", of_positive ? ", or negative" : "");
+  }
+  std::string answers_in_caption() const {
+    if (!of_cube) return "Filled: the positive answer; open: the negative one";
+    return fmt::format(
+        "Filled: the heavier cube was chosen{}; cross: the lighter one; open: no difference{}",
+        of_positive ? ", or a positive answer" : "", of_positive ? ", or a negative one" : "");
+  }
+};
+
+std::string_view level_label(bool is_mass) {
+  return is_mass ? "mass (g)" : "difference from the reference (g)";
 }
 
 // trial, level, what was answered (0 none, 1 heavier, 2 lighter), reversal
@@ -34,11 +73,13 @@ std::string rows_of(const Track& track) {
 void add_track(PlotPanel& panel, const Track& track, std::size_t index, bool in_full) {
   const std::string rows = rows_of(track);
   const std::string_view color = in_full ? series_color(index) : "#777777";
+  const std::string_view estimate = track.is_judgment() ? "threshold" : "JND";
   std::string title;
   if (in_full)
-    title = track.staircase + (track.jnd_g ? fmt::format(": JND {}{:.1f} g",
-                                                         beyond_sign(track.censored), *track.jnd_g)
-                                           : ": no JND");
+    title = fmt::format("{}: {}", track.staircase,
+                        track.jnd_g ? fmt::format("{} {}{:.1f} g", estimate,
+                                                  beyond_sign(track.censored), *track.jnd_g)
+                                    : fmt::format("no {}", estimate));
   panel.add(rows,
             fmt::format("using 1:2 with lines dashtype {} linecolor '{}'",
                         in_full ? 1 : series_dash(index), color),
@@ -68,19 +109,31 @@ std::string panel_title(const SessionTracks& session, const std::vector<const Tr
   return session.participant + jnds + " g";
 }
 
-Chart all_at(const Summary& summary, const Compared& compared, bool several_conditions) {
-  Chart chart;
-  chart.name = fmt::format("all_staircases_{:g}g{}", compared.reference_g,
-                           several_conditions ? "_" + compared.condition : "");
+// "all_staircases_200g", "all_staircases_heavy_C2"
+std::string chart_name(const Track& of, bool several_conditions) {
+  const std::string& block = of.compared.block;
+  std::string name = "all_staircases";
+  if (of.is_judgment()) name += "_" + block;
+  if (of.compared.reference_g > 0) name += fmt::format("_{:g}g", of.compared.reference_g);
+  if (several_conditions) name += "_" + of.compared.condition;
   std::ranges::replace_if(
-      chart.name, [](unsigned char c) { return !std::isalnum(c) && c != '_'; }, '_');
-  chart.title = titled("Every staircase at " + name_of_compared(compared), summary);
+      name, [](unsigned char c) { return !std::isalnum(c) && c != '_'; }, '_');
+  return name;
+}
+
+// @param of a track of all that are charted
+Chart all_at(const Summary& summary, const Track& of, const std::string& name) {
+  Chart chart;
+  chart.name = name;
+  chart.title = titled(
+      fmt::format("Every staircase {} {}", of.is_judgment() ? "of" : "at", name_of_compared(of)),
+      summary);
   std::vector<PlotPanel> panels;
   double highest_g = 1, lowest_g = 0;
   for (const SessionTracks& session : summary.all_tracks) {
     std::vector<const Track*> tracks;
     for (const Track& track : session.tracks)
-      if (track.compared == compared) tracks.push_back(&track);
+      if (track.compared == of.compared) tracks.push_back(&track);
     if (tracks.empty()) continue;
     chart.n += 1;
     if (panels.size() == most_panels) continue;
@@ -93,21 +146,36 @@ Chart all_at(const Summary& summary, const Compared& compared, bool several_cond
       }
     }
   }
+  TrackKinds kinds;
+  kinds.add(of);
   chart.caption = fmt::format(
-      "Difference shown (g) by trial of the staircase, a panel for each session{}. Filled: the "
-      "heavier cube was chosen; cross: the lighter one; open: no difference. Above each panel the "
-      "paper's JND, \"> \" or \"< \" where a bound, the trial limit or few reversals cut it.",
+      "{} (g) by trial of the staircase, a panel for each session{}. {}. Above each panel {}, "
+      "\"> \" or \"< \" where a bound, the trial limit or few reversals cut it.",
+      kinds.masses ? "Mass" : "Difference shown",
       static_cast<std::size_t>(chart.n) > panels.size()
           ? fmt::format(", the first {} of {}", panels.size(), chart.n)
-          : "");
+          : "",
+      kinds.answers_in_caption(), kinds.estimate());
   chart.csv = "staircase_trials.csv";
   PlotFrame frame{140, 94, 5, 60, 40, 74};
   frame.axes =
       fmt::format("set xrange [0:*]\nset yrange [{}:{}]\nset tics font ',9'\nset xtics 20\n",
                   lowest_g - 0.04 * highest_g, 1.05 * highest_g);
-  frame.legend = "filled: heavier chosen; cross: lighter chosen; open: no difference";
+  frame.legend = kinds.answers();
   put_script(chart, summary, frame, panels);
   return chart;
+}
+
+// Panels with different levels have a label each.
+PlotFrame frame_of(const TrackKinds& kinds, std::size_t n_panels) {
+  PlotFrame frame;
+  frame.panel_width_px = n_panels > 1 ? 300 : 600;
+  if (kinds.masses && kinds.differences) frame.gap_x_px = frame.left_px;
+  frame.axes =
+      fmt::format("set xrange [0:*]\nset xlabel 'trial of the staircase'\nset ylabel '{}'\n",
+                  level_label(kinds.masses));
+  frame.legend = kinds.answers() + "; ring: reversal";
+  return frame;
 }
 }  // namespace
 
@@ -119,40 +187,41 @@ Chart tracks_chart(const Summary& summary) {
   chart.title =
       titled(fmt::format("Staircases of session {}, {}", session.session_id, session.participant),
              session.simulated ? "simulated" : "", summary);
-  chart.caption =
-      "One session's staircases in full; all sessions' follow. Dashed: the paper's JND, \"> \" or "
-      "\"< \" where it is censored. Filled: the heavier cube was chosen; cross: the lighter one; "
-      "open: no difference; ring: reversal.";
   chart.n = 1;
   chart.csv = "staircase_trials.csv";
+  TrackKinds kinds;
+  for (const Track& track : session.tracks) kinds.add(track);
+  chart.caption = fmt::format(
+      "One session's staircases in full; all sessions' follow. Dashed: {}, \"> \" or \"< \" where "
+      "it is censored. {}; ring: reversal.",
+      kinds.estimate(), kinds.answers_in_caption());
   std::map<Compared, PlotPanel> panels;
   std::map<Compared, std::size_t> n_tracks;
   for (const Track& track : session.tracks) {
     PlotPanel& panel = panels[track.compared];
-    panel.title = name_of_compared(track.compared);
+    panel.title = name_of_compared(track);
+    if (kinds.masses && kinds.differences)
+      panel.axes = fmt::format("set ylabel '{}'\n", level_label(track.compared.reference_g == 0));
     add_track(panel, track, n_tracks[track.compared]++, true);
   }
-  PlotFrame frame;
-  frame.panel_width_px = panels.size() > 1 ? 300 : 600;
-  frame.axes =
-      "set xrange [0:*]\nset xlabel 'trial of the staircase'\n"
-      "set ylabel 'difference from the reference (g)'\n";
-  frame.legend =
-      "filled: heavier chosen; cross: lighter chosen; open: no difference; ring: reversal";
   std::vector<PlotPanel> drawn;
   for (auto& [compared, panel] : panels) drawn.push_back(std::move(panel));
-  put_script(chart, summary, frame, drawn);
+  put_script(chart, summary, frame_of(kinds, drawn.size()), drawn);
   return chart;
 }
 
 std::vector<Chart> multiples_charts(const Summary& summary) {
-  std::set<Compared> all;
+  std::map<Compared, const Track*> all;  // the first one of each
   for (const SessionTracks& session : summary.all_tracks)
-    for (const Track& track : session.tracks) all.insert(track.compared);
+    for (const Track& track : session.tracks) all.emplace(track.compared, &track);
   std::vector<Chart> charts;
-  for (const Compared& compared : all) {
-    const auto same = std::ranges::count(all, compared.reference_g, &Compared::reference_g);
-    charts.push_back(all_at(summary, compared, same > 1));
+  for (const auto& [compared, track] : all) {
+    const auto same = std::ranges::count_if(all, [&](const auto& other) {
+      return other.first.reference_g == compared.reference_g && other.first.block == compared.block;
+    });
+    std::string name = chart_name(*track, same > 1);
+    while (std::ranges::count(charts, name, &Chart::name) > 0) name += "_";
+    charts.push_back(all_at(summary, *track, name));
   }
   return charts;
 }

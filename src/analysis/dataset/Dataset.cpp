@@ -14,7 +14,6 @@
 #include "protocol/readers/Files.h"
 #include "record/export/Export.h"
 #include "tasks/Comparison.h"
-#include "tasks/Judgment.h"
 
 namespace heft {
 
@@ -156,7 +155,7 @@ struct Declared {
   ExclusionRules exclusion;
   std::map<std::string, published::Condition> published_conditions;
   std::map<std::string, ComparisonAnswers> answers;  // by block, where not three
-  std::map<std::string, FormQuestion> questions;
+  std::map<std::string, Judgment::Offer> judgments;
 };
 
 constexpr std::array counted_kinds{event_kind<Note>,         event_kind<Deviation>,
@@ -195,7 +194,7 @@ Declared declared_in(const std::string& protocol_text, const SessionConfig& conf
     take_questions(protocol, config.texts.text, config.texts.path);
     for (const Block& block : protocol.blocks)
       if (const auto* judgment = block_as<Judgment::Block>(block); judgment && judgment->question)
-        declared.questions[judgment->name] = *judgment->question;
+        declared.judgments[judgment->name] = {*judgment->question, judgment->responses};
   } catch (const Error&) {
   }
   return declared;
@@ -221,7 +220,7 @@ SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& 
   data.plan = found->second.plan;
   data.exclusion = found->second.exclusion;
   data.published_conditions = found->second.published_conditions;
-  data.questions = found->second.questions;
+  data.judgments = found->second.judgments;
   const std::vector<LoggedEvent> events = log.events(id, counted_kinds);
   data.frames = log.frame_counts(id);
   for (Attempt& attempt : data.attempts)

@@ -13,11 +13,11 @@
 
 #include "analysis/dataset/Published.h"
 #include "experiment/Rows.h"
-#include "experiment/ScreenTexts.h"
 #include "inference/checks/PredictiveCheck.h"
 #include "protocol/study/AnalysisPlan.h"
 #include "record/reader/LogReader.h"
 #include "tasks/Comparison.h"
+#include "tasks/Judgment.h"
 
 namespace heft {
 
@@ -101,8 +101,8 @@ struct SessionData {
   std::map<std::string, StaircaseRun> staircases{};
   /// Those of its conditions that the paper measured, by law and parameters.
   std::map<std::string, published::Condition> published_conditions{};
-  /// The questions of its judgments, by block.
-  std::map<std::string, FormQuestion> questions{};
+  /// What its judgments ask, and what the answers respond to procedures, by block.
+  std::map<std::string, Judgment::Offer> judgments{};
 
   /// A model answered at least one of its trials; where there is none, was to answer.
   bool simulated() const { return model().has_value(); }

@@ -80,6 +80,7 @@ struct CountedFold {
     participants.insert(data.participant());
     shared->comparisons.add(data);
     shared->staircases.add(data);
+    shared->judgments.add(data);
     tracks.add(data);
   }
 

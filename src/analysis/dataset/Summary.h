@@ -61,7 +61,7 @@ struct Hypothesis {
 /// What several sections are made of; sessions are read once for all.
 struct SharedFolds {
   ComparisonTrials comparisons;
-  StaircaseFold staircases;
+  StaircaseFold staircases, judgments{"judgment"};
 };
 
 class Section;

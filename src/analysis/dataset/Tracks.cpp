@@ -3,36 +3,81 @@
 #include <algorithm>
 #include <tuple>
 
+#include "tasks/Comparison.h"
+#include "tasks/Judgment.h"
+
 namespace heft {
 
 namespace {
-Track& track_of(std::vector<Track>& tracks, const TrialPlan& plan) {
-  const auto found = std::ranges::find(tracks, plan.staircase, &Track::staircase);
-  if (found != tracks.end()) return *found;
-  return tracks.emplace_back(Track{plan.staircase, {*plan.reference_g, plan.condition}, {}, {}});
+// An attempt of a staircase as a track begins with it, and its point.
+struct Tracked {
+  Track track;
+  TrackPoint point;
+};
+
+std::optional<Tracked> compared_in(const Attempt& attempt) {
+  const TrialRow& trial = attempt.trial;
+  if (!trial.plan.reference_g) return std::nullopt;
+  const bool chosen = trial.outcome == "difference";
+  const bool wrong = chosen && *trial.plan.level_g != 0 && !trial.choice_correct.value_or(true);
+  return Tracked{{trial.plan.staircase, {*trial.plan.reference_g, trial.plan.condition}, {}, {}},
+                 {*trial.plan.level_g, wrong, chosen, attempt.is_reversal}};
+}
+
+std::optional<Tracked> judged_in(const Attempt& attempt, const SessionData& data) {
+  const TrialRow& trial = attempt.trial;
+  const TrialPlan& plan = trial.plan;
+  const auto asked = data.judgments.find(plan.block);
+  if (asked == data.judgments.end() || !trial.value) return std::nullopt;
+  const auto& [question, responses] = asked->second;
+  Tracked tracked{{plan.staircase, {plan.reference_g.value_or(0), plan.condition}, {}, {}},
+                  {*plan.level_g, false, false, attempt.is_reversal}};
+  Track& track = tracked.track;
+  track.compared.block = plan.block;
+  track.question = question.key;
+  track.chooses_cube = false;
+  for (const auto& [answer, meaning] : responses) {
+    if (meaning == Meaning::negative || meaning == Meaning::none) continue;
+    track.positive.push_back(answer);
+    track.chooses_cube = meaning != Meaning::positive;
+  }
+  const auto meaning = meaning_of(responses, Judgment::choice_of(question, *trial.value));
+  tracked.point.chosen = meaning && meaning != Meaning::negative && meaning != Meaning::none;
+  const bool is_reference = plan.reference_slot == (meaning == Meaning::left ? 1 : 2);
+  tracked.point.wrong = tracked.point.chosen && track.chooses_cube && *plan.level_g != 0 &&
+                        is_reference == (*plan.level_g > 0);
+  return tracked;
+}
+
+std::optional<Tracked> tracked_in(const Attempt& attempt, const SessionData& data) {
+  const TrialPlan& plan = attempt.trial.plan;
+  if (!attempt.completed() || plan.staircase.empty() || !plan.level_g ||
+      data.without_jnd.contains(plan.staircase))
+    return std::nullopt;
+  if (plan.task == Comparison::task.name) return compared_in(attempt);
+  return plan.task == Judgment::task.name ? judged_in(attempt, data) : std::nullopt;
+}
+
+void add_point(std::vector<Track>& tracks, Tracked&& tracked) {
+  auto track = std::ranges::find(tracks, tracked.track.staircase, &Track::staircase);
+  if (track == tracks.end()) track = tracks.insert(tracks.end(), std::move(tracked.track));
+  track->points.push_back(tracked.point);
 }
 
 std::vector<Track> tracks_of(const SessionData& data) {
   std::vector<Track> tracks;
-  for (const Attempt& attempt : data.attempts) {
-    const TrialPlan& plan = attempt.trial.plan;
-    if (!attempt.completed() || plan.task != "comparison" || plan.staircase.empty() ||
-        !plan.reference_g || !plan.level_g || data.without_jnd.contains(plan.staircase))
-      continue;
-    track_of(tracks, plan)
-        .points.push_back({*plan.level_g,
-                           attempt.trial.outcome == "difference" && *plan.level_g != 0 &&
-                               !attempt.trial.choice_correct.value_or(true),
-                           attempt.trial.outcome == "difference", attempt.is_reversal});
+  for (const Attempt& attempt : data.attempts)
+    if (auto tracked = tracked_in(attempt, data)) add_point(tracks, std::move(*tracked));
+  for (const std::string_view task : {Comparison::task.name, Judgment::task.name}) {
+    StaircaseFold staircases(task);
+    staircases.add(data);
+    for (const StaircaseResult& result : staircases.results())
+      for (Track& track : tracks)
+        if (track.staircase == result.staircase) {
+          track.jnd_g = result.shown_g;
+          track.censored = result.censored;
+        }
   }
-  StaircaseFold staircases;
-  staircases.add(data);
-  for (const StaircaseResult& result : staircases.results())
-    for (Track& track : tracks)
-      if (track.staircase == result.staircase) {
-        track.jnd_g = result.shown_g;
-        track.censored = result.censored;
-      }
   std::ranges::sort(tracks, {},
                     [](const Track& track) { return std::tie(track.compared, track.staircase); });
   return tracks;

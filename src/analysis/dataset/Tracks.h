@@ -16,7 +16,7 @@ namespace heft {
 struct TrackPoint {
   double level_g = 0;   ///< as presented
   bool wrong = false;   ///< the lighter cube was chosen
-  bool chosen = false;  ///< a cube was; otherwise "no difference"
+  bool chosen = false;  ///< a cube was, or the answer is positive; otherwise neither
   bool is_reversal = false;
 };
 
@@ -26,6 +26,12 @@ struct Track {
   std::vector<TrackPoint> points;  ///< the staircase's completed trials in order
   std::optional<double> jnd_g;     ///< where `censored`, what it lies beyond
   Censored censored = Censored::none;
+  /// Of a judgment its question's key, and the answers that are positive or choose a cube.
+  std::string question{};
+  std::vector<std::string> positive{};
+  bool chooses_cube = true;  ///< otherwise answers are positive or negative
+
+  bool is_judgment() const { return !compared.block.empty(); }
 };
 
 struct SessionTracks {
@@ -35,7 +41,8 @@ struct SessionTracks {
   std::vector<Track> tracks;  ///< by reference, then name
 };
 
-/// Every session that has staircases that estimate a JND.
+/// Every session that has staircases that estimate a JND or the threshold of a judgment whose
+/// question the log has.
 class TracksFold {
  public:
   void add(const SessionData& data);

@@ -83,8 +83,8 @@ class JudgmentSection final : public Section {
         shown.cubes.emplace_back(cube.mass_g, cube.table_friction);
       std::ranges::sort(shown.cubes);
       Answers& answers = by_shown_[shown];
-      if (const auto asked = data.questions.find(shown.block); asked != data.questions.end())
-        answers.question = asked->second;
+      if (const auto asked = data.judgments.find(shown.block); asked != data.judgments.end())
+        answers.question = asked->second.question;
       answers.are_chosen = trial.outcome == "chosen";
       answers.people[data.participant()].push_back(*trial.value);
     }

@@ -23,12 +23,11 @@ constexpr Measure n_missing{"judgment_threshold_n_missing", "", "missing",
 class JudgmentThresholdSection final : public Section {
  public:
   void add(const SessionData& data) override {
-    staircases_.add(data);
-    for (const auto& [block, question] : data.questions) questions_[block] = question.key;
+    for (const auto& [block, asked] : data.judgments) questions_[block] = asked.question.key;
   }
 
   void put(Summary& summary) override {
-    jnds_ = staircases_.jnds();
+    jnds_ = summary.shared->judgments.jnds();
     for (const ReferenceJnd& row : jnds_) {
       const Jnds& jnds = row.overall;
       StudyEstimate mean = at(threshold, row.compared);
@@ -108,7 +107,6 @@ class JudgmentThresholdSection final : public Section {
     return estimate;
   }
 
-  StaircaseFold staircases_{"judgment"};
   std::map<std::string, std::string> questions_;  // by block
   std::vector<ReferenceJnd> jnds_;
 };

@@ -1,5 +1,8 @@
 // Tables of records: participants, sessions, staircases, incidents, configurations.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "analysis/report/Tables.h"
 #include "experiment/Rows.h"
@@ -7,8 +10,10 @@
 namespace heft {
 
 namespace {
-Cell grams(double mass_g) {
-  return {fmt::format("{:g}", mass_g), mass_g};
+// Single cubes have no reference.
+Cell reference_cell(const Compared& compared) {
+  if (compared.reference_g == 0) return word("");
+  return {fmt::format("{:g}", compared.reference_g), compared.reference_g};
 }
 
 Cell session_cell(std::int64_t id) {
@@ -222,20 +227,23 @@ Table staircase_table(const Summary& summary) {
                {"reason", "ended by"},
                {"method", "method"},
                {"low_g", "from g"},
-               {"high_g", "to g"}},
+               {"high_g", "to g"},
+               {"block", "judgment"}},
               {},
               ""};
-  for (const StaircaseResult& result : summary.shared->staircases.results()) {
+  const auto add = [&](const StaircaseResult& result) {
     Cell shown = number(result.shown_g);
     shown.text = std::string(beyond_sign(result.censored)) + shown.text;
-    table.rows.push_back({session_cell(result.session_id), word(result.participant),
-                          word(result.staircase), grams(result.compared.reference_g),
-                          word(result.compared.condition), shown, named_cell(result.censored),
-                          word(result.why), number(result.start_g), count(result.n_trials),
-                          count(result.n_reversals), count(result.n_floor), count(result.n_ceiling),
-                          named_cell(result.reason), word(result.compared.method),
-                          number(result.low_g), number(result.high_g)});
-  }
+    table.rows.push_back(
+        {session_cell(result.session_id), word(result.participant), word(result.staircase),
+         reference_cell(result.compared), word(result.compared.condition), shown,
+         named_cell(result.censored), word(result.why), number(result.start_g),
+         count(result.n_trials), count(result.n_reversals), count(result.n_floor),
+         count(result.n_ceiling), named_cell(result.reason), word(result.compared.method),
+         number(result.low_g), number(result.high_g), word(result.compared.block)});
+  };
+  std::ranges::for_each(summary.shared->staircases.results(), add);
+  std::ranges::for_each(summary.shared->judgments.results(), add);
   return table;
 }
 
@@ -334,17 +342,21 @@ Table track_table(const SessionTracks& session) {
                {"level_g", "difference g"},
                {"chosen", "chosen"},
                {"incorrect", "incorrect"},
-               {"reversal", "reversal"}},
+               {"reversal", "reversal"},
+               {"block", "judgment"},
+               {"question", "question"},
+               {"positive", "positive answers"}},
               {},
               ""};
   for (const Track& track : session.tracks)
     for (std::size_t i = 0; i < track.points.size(); ++i) {
       const TrackPoint& point = track.points[i];
-      table.rows.push_back({session_cell(session.session_id), word(session.participant),
-                            word(track.staircase), grams(track.compared.reference_g),
-                            word(track.compared.condition), count(static_cast<int>(i) + 1),
-                            number(point.level_g), count(point.chosen ? 1 : 0),
-                            count(point.wrong ? 1 : 0), count(point.is_reversal ? 1 : 0)});
+      table.rows.push_back(
+          {session_cell(session.session_id), word(session.participant), word(track.staircase),
+           reference_cell(track.compared), word(track.compared.condition),
+           count(static_cast<int>(i) + 1), number(point.level_g), count(point.chosen ? 1 : 0),
+           count(point.wrong ? 1 : 0), count(point.is_reversal ? 1 : 0), word(track.compared.block),
+           word(track.question), word(fmt::format("{}", fmt::join(track.positive, ", ")))});
     }
   return table;
 }

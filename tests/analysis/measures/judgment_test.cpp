@@ -34,7 +34,7 @@ Attempt& add_judgment(SessionData& data, const std::vector<double>& masses_g, do
 // Of 100 g: 1 and 9, and 4; of 100 and 200 g: 100, and 900.
 std::vector<SessionData> two_people(const FormQuestion& asked) {
   SessionData one = session(1, "one"), other = session(2, "other");
-  for (SessionData* data : {&one, &other}) data->questions["pairs"] = asked;
+  for (SessionData* data : {&one, &other}) data->judgments["pairs"] = {asked};
   add_judgment(one, {100}, 1);
   add_judgment(one, {100}, 9);
   add_judgment(one, {200, 100}, 100);
@@ -75,7 +75,7 @@ TEST(JudgmentMeans, AreGeometricWhereTheQuestionTakesOnlyNumbersAboveZero) {
 
 TEST(JudgmentMeans, DoNotEnterMagnitudeEstimation) {
   SessionData data = session(1, "one");
-  data.questions["pairs"] = question(QuestionKind::number, 1);
+  data.judgments["pairs"] = {question(QuestionKind::number, 1)};
   add_judgment(data, {100}, 5);
   const Summary summary = summarized({data});
   EXPECT_FALSE(figure(summary, "estimation_mean").measure);
@@ -95,7 +95,7 @@ TEST(JudgmentMeans, OfCubesWithTheirOwnFrictionAreApart) {
 TEST(JudgmentShares, AreOfWordsInTheQuestionsOrder) {
   std::vector<SessionData> sessions{session(1, "one"), session(2, "other")};
   for (SessionData& data : sessions) {
-    data.questions["pairs"] = question(QuestionKind::choice);
+    data.judgments["pairs"] = {question(QuestionKind::choice)};
     for (int i = 0; i < 4; ++i)
       add_judgment(data, {100, 200}, data.session.session_id == 1 && i < 3 ? 1 : 2).trial.outcome =
           "chosen";
@@ -111,7 +111,7 @@ TEST(JudgmentShares, AreOfWordsInTheQuestionsOrder) {
   EXPECT_EQ(*of("100, 100", "different").value, 0) << "an answer that no one gave";
   EXPECT_EQ(of("100, 100", "same").n, 2);
   EXPECT_THAT(readable(summary), HasSubstr("\"different\""));
-  for (SessionData& data : sessions) data.questions.clear();
+  for (SessionData& data : sessions) data.judgments.clear();
   EXPECT_EQ(*figure(sessions, "judgment_share", {{"masses_g", "100, 200"}, {"answer", "1"}}).value,
             100 * 3.0 / 8)
       << "without the question answers are named by their places";

@@ -53,6 +53,12 @@ class JudgmentStaircase(SessionTest):
         db = self.folder / "s.db"
         self.run_heft("simulate", EXAMPLE, "--participants", 2, "--seed", 3, "--db", db)
         self.run_heft("analyse", "--db", db, "--out", self.folder / "report")
+        with open(self.folder / "report/staircase_trials.csv", newline="", encoding="utf-8") as lines:
+            trials = list(csv.DictReader(lines))
+        self.assertEqual({(row["block"], row["question"], row["positive"]) for row in trials},
+                         {("heavy", "heavy", "yes"), ("harder", "harder", "left, right")})
+        logged = query(db, "select count(*) from trial where status = 'completed'")[0][0]
+        self.assertEqual(len(trials), logged)
         page = (self.folder / "report/report.html").read_text(encoding="utf-8")
         self.assertIn("about one cube in C2. The mass was set by an up-down staircase", page)
         self.assertIn("about a reference and a comparison on random sides in C2", page)
