@@ -25,7 +25,7 @@ struct ReferenceStaircase {
 
 /// What the answers of a block demand of its procedures.
 struct StaircaseRules {
-  enum class Reference { required, optional };
+  enum class Reference { required, optional, unknown };  ///< unknown: its mass is a mistake
   Reference reference = Reference::required;
   std::optional<double> object_g = {};  ///< of the real object that is the reference of all
   bool either_sign = false;             ///< the comparison may be lighter

@@ -50,6 +50,15 @@ const std::vector<Broken> broken_references{
     {"long_name",
      {"{ name = \"brass cylinder\"", "^{ name = \"a brass cylinder with a hook\""},
      {"28 characters", "1 to 24"}},
+    {"no_mass", {"mass_g = 200 }", "mass_g = ^0 }"}, {"mass_g is 0"}},
+    {"mass_in_words", {"mass_g = 200 }", "mass_g = ^\"200\" }"}, {"mass_g", "expected a number"}},
+    {"no_mass_and_catches",
+     {"mass_g = 200 }", "mass_g = ^-1 }\ncatch_trials = { 200g = 2 }"},
+     {"mass_g is -1"}},
+    {"no_object", {"{ name = \"brass cylinder\", mass_g = 200 }", "^\"brass\""}, {"reference"}},
+    {"no_mass_twice",
+     {"mass_g = 200 }", "^mas_g = 200 }"},
+     {"mass_g"}},
     {"lighter_than_nothing", {"levels = [-150", "levels = [^-200"}, {"weigh 0 g"}},
 };
 

@@ -157,7 +157,7 @@ Chart all_at(const Summary& summary, const Track& of, const std::string& name) {
           : "",
       kinds.answers_in_caption(), kinds.estimate());
   chart.csv = "staircase_trials.csv";
-  PlotFrame frame{140, 94, 5, 60, 40, 74};
+  PlotFrame frame{140, 94, 5, 60, lowest_g < 0 ? 52 : 40, 74};
   frame.axes =
       fmt::format("set xrange [0:*]\nset yrange [{}:{}]\nset tics font ',9'\nset xtics 20\n",
                   lowest_g - 0.04 * highest_g, 1.05 * highest_g);

@@ -51,6 +51,12 @@ std::vector<TechniqueTrials> read_trials_of_two(TableReader& table) {
   return {{coupled_technique, c1_trials}, {spring_technique, trials - c1_trials}};
 }
 
+// The block's reference is there, but could not be read: its mistake is reported.
+bool has_wrong_object(const TableReader& block, const StaircaseRules& rules) {
+  return rules.reference == StaircaseRules::Reference::required && !rules.object_g &&
+         block.has("reference");
+}
+
 // catch_trials = { 15g = 10, 200g = 10 } by reference, or one number for all of them together.
 void read_catch_trials(TableReader& table, Comparison::Block& block) {
   std::vector<double> references_g;
@@ -58,6 +64,7 @@ void read_catch_trials(TableReader& table, Comparison::Block& block) {
     if (std::ranges::count(references_g, entry.reference_g) == 0)
       references_g.push_back(entry.reference_g);
   if (auto counts = table.has_table("catch_trials") ? table.table("catch_trials") : std::nullopt) {
+    if (has_wrong_object(table, block.staircase_rules())) return;
     for (const double reference_g : references_g) {
       int n = 0;
       counts->read(fmt::format("{:g}g", reference_g), n, {0, most_trials});
@@ -150,10 +157,12 @@ class KeyReader {
   void read(std::string_view, InterleaveConfig& field) { field = read_interleaving(table_); }
   template <typename Block>
   void read(std::string_view key, StaircasesOf<Block>& field) {
+    StaircaseRules rules = field.block.staircase_rules();
+    if (has_wrong_object(table_, rules)) rules.reference = StaircaseRules::Reference::unknown;
     for (TableReader& staircase : table_.tables(key))
-      std::ranges::move(read_staircases_of(staircase, names_.techniques, names_.staircases,
-                                           field.block.staircase_rules()),
-                        std::back_inserter(field.block.staircases));
+      std::ranges::move(
+          read_staircases_of(staircase, names_.techniques, names_.staircases, rules),
+          std::back_inserter(field.block.staircases));
   }
   void read(std::string_view, CatchTrials<Comparison::Block>& field) {
     read_catches(table_, field.block);

@@ -90,14 +90,16 @@ std::vector<ReferenceStaircase> read_staircases_of(TableReader& table,
                                                    const TechniqueNames& techniques,
                                                    UniqueNames& names,
                                                    const StaircaseRules& rules) {
+  using Reference = StaircaseRules::Reference;
+  const bool is_object = rules.object_g || rules.reference == Reference::unknown;
   double reference_g = 0;
   std::string condition;
   bool paired = false;
   std::optional<double> start_below;
-  if (rules.reference == StaircaseRules::Reference::required && !rules.object_g)
+  if (rules.reference == Reference::required && !is_object)
     table.require({"reference_g"});
   table.read("reference_g", reference_g, above_zero);
-  if (rules.object_g && table.has("reference_g"))
+  if (is_object && table.has("reference_g"))
     table.mistake("reference_g",
                   "reference_g together with the block's reference, expected without: it is the "
                   "mass of the real object");
@@ -113,7 +115,7 @@ std::vector<ReferenceStaircase> read_staircases_of(TableReader& table,
   if (!settings) return {{reference_g, StaircaseSettings{}.procedure(), condition}};
   if (rules.object_g || (table.has("reference_g") && table.good({"reference_g"})))
     check_beside(table, *settings, reference_g, rules.either_sign);
-  if (!table.has("reference_g") && rules.reference == StaircaseRules::Reference::optional)
+  if (!table.has("reference_g") && rules.reference == Reference::optional)
     table.note(std::visit([](const auto& config) { return mistakes_in_masses(config); },
                           settings->config));
   if (!rules.no_cube.empty() && needs_choice(settings->config))
