@@ -18,6 +18,14 @@ constexpr double slower = 1.1;                              // a period longer t
 constexpr double dropped_limit = 0.1, dropped_note = 0.02;  // fractions of pictures
 constexpr double mass_g = 200;                              // arbitrary
 
+// What a block's first trial offers; any seed will do.
+std::any first_offer(const TaskBlock& block) {
+  constexpr std::uint64_t seed = 0;
+  ScreenState screen;
+  block.trial(block.run(seed)->plan({seed, 1}), seed)->show(screen);
+  return screen.offer;
+}
+
 // The page with most cubes; a typical one if the protocol has no trials.
 ScreenState page_of_trial(const Protocol& protocol) {
   ScreenState screen{.screen = Screen::trial, .task = Sorting::task.name};
@@ -26,6 +34,7 @@ ScreenState page_of_trial(const Protocol& protocol) {
     if (!trials || trials->most_cubes() <= screen.n_slots) continue;
     screen.task = trials->task().name;
     screen.n_slots = trials->most_cubes();
+    screen.offer = first_offer(*trials);
   }
   if (screen.n_slots == 0) screen.n_slots = 3;
   screen.can_answer = false;

@@ -4,6 +4,7 @@
 #include "session/DisplayCheck.h"
 #include "session/Protocols.h"
 #include "session/TappedScreen.h"
+#include "tasks/Tasks.h"
 
 namespace heft {
 namespace {
@@ -12,6 +13,7 @@ using ::testing::HasSubstr;
 using testing::made_up_monotonic;
 using testing::made_up_s;
 using testing::quick_protocol;
+using testing::short_comparison;
 
 /// A display on which each frame takes a while; the made-up clock runs on meanwhile.
 class SlowDisplay final : public ArView {
@@ -82,6 +84,29 @@ TEST(DisplayCheck, HasATrialsPageForAProtocolWithoutTrials) {
   protocol.blocks.clear();
   checked(view, protocol);
   EXPECT_EQ(view.frames.back().frame.cubes.size(), 3u);
+}
+
+// Otherwise a forced choice would show "no difference" until its first trial.
+TEST(DisplayCheck, ShowsTheAnswersOfTheProtocolsTrials) {
+  Protocol protocol = protocol_at_15_hz();
+  Comparison::Block block = short_comparison(3);
+  for (const ComparisonAnswers answers :
+       {ComparisonAnswers::heavier, ComparisonAnswers::same_different,
+        ComparisonAnswers::heavier_or_none}) {
+    SlowDisplay view(0.004);
+    block.answers = answers;
+    protocol.blocks = {block};
+    checked(view, protocol);
+    ASSERT_FALSE(view.screens.empty());
+    for (const ScreenState& screen : view.screens)
+      EXPECT_EQ(offer_of<Comparison>(screen.offer).answers, answers);
+  }
+  block.reference = RealObject{"brass cylinder", 15};
+  protocol.blocks = {block};
+  SlowDisplay view(0.004);
+  checked(view, protocol);
+  EXPECT_EQ(offer_of<Comparison>(view.screens.back().offer).object, "brass cylinder");
+  EXPECT_EQ(view.screens.back().n_slots, 1);
 }
 
 /// So many pictures at 15 Hz, of which every n-th is late by so much.
