@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "base/Error.h"
 #include "base/Parallel.h"
 #include "base/Random.h"
+#include "base/files/TextFile.h"
 #include "population/ResponderFit.h"
 #include "responders/ResponderParameters.h"
 
@@ -54,24 +54,29 @@ double halton(int i, int base) {
 constexpr std::array primes{2, 3, 5, 7, 11, 13, 17};
 }  // namespace
 
-FreeParameter read_free_parameter(const std::string& text) {
-  FreeParameter free;
-  const std::size_t equals = text.find('='), dots = text.find("..");
-  const auto number = [](std::string_view digits, double& value) {
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    return error == std::errc() && end == digits.data() + digits.size();
+std::optional<std::pair<double, double>> positive_range_in(std::string_view text,
+                                                           std::string_view unit) {
+  const std::size_t dots = text.find("..");
+  if (dots == std::string_view::npos) return std::nullopt;
+  const auto number = [&](std::string_view part) {
+    if (part.ends_with(unit)) part.remove_suffix(unit.size());
+    return number_in(part);
   };
-  const bool has_form = equals != std::string::npos && dots != std::string::npos && dots > equals;
-  if (!has_form ||
-      !number(std::string_view(text).substr(equals + 1, dots - equals - 1), free.low) ||
-      !number(std::string_view(text).substr(dots + 2), free.high) || !(free.low > 0) ||
-      !(free.high > free.low))
+  const auto low = number(text.substr(0, dots)), high = number(text.substr(dots + 2));
+  if (!low || !high || !(*low > 0) || !(*high > *low)) return std::nullopt;
+  return std::pair(*low, *high);
+}
+
+FreeParameter read_free_parameter(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const auto range =
+      equals == std::string::npos ? std::nullopt : positive_range_in(text.substr(equals + 1));
+  if (!range)
     throw Error(fmt::format("--free {}: expected NAME=LOW..HIGH with numbers above 0, such as "
                             "criterion_mm=1..20 or criterion_mm.spread=0.1..1",
                             text),
                 ExitCode::usage);
-  free.name = text.substr(0, equals);
-  return free;
+  return {text.substr(0, equals), range->first, range->second};
 }
 
 void Bank::plan(const Request& request) {

@@ -24,6 +24,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "inference/MaximumLikelihood.h"
@@ -31,6 +33,11 @@
 #include "population/LoggedAnswers.h"
 
 namespace heft {
+
+/// @param text "LOW..HIGH", each with the unit: "10..1000", "10g..1000g"
+/// @return none unless both are numbers above 0, the smaller one first
+std::optional<std::pair<double, double>> positive_range_in(std::string_view text,
+                                                           std::string_view unit = {});
 
 /// A parameter of the population: the median of a responder's parameter, or its spread.
 struct FreeParameter {

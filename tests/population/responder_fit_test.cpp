@@ -172,6 +172,16 @@ std::string refusal_of(const std::vector<FreeParameter>& free) {
   return "";
 }
 
+TEST(PositiveRange, IsReadWithItsUnitOrWithout) {
+  using Range = std::optional<std::pair<double, double>>;
+  EXPECT_EQ(positive_range_in("10..1000"), Range(std::pair(10.0, 1000.0)));
+  EXPECT_EQ(positive_range_in("10g..1e3g", "g"), Range(std::pair(10.0, 1000.0)));
+  EXPECT_EQ(positive_range_in("10..1000", "g"), Range(std::pair(10.0, 1000.0)));
+  for (const char* text : {"", "10", "10..", "..10", "0..10", "20..10", "10..10", "10...20",
+                           "10g..20g", "1..inf", "-1..2"})
+    EXPECT_FALSE(positive_range_in(text)) << text;
+}
+
 TEST(FreeParameters, MistakesSayWhatWasExpected) {
   for (const char* text : {"criterion_mm", "criterion_mm=5", "criterion_mm=5..2",
                            "criterion_mm=0..2", "criterion_mm=1..x", "=..", "criterion_mm..=1"})

@@ -12,6 +12,7 @@
 #include "cli/SessionOptions.h"
 #include "cli/console/Terminal.h"
 #include "cli/reports/Reports.h"
+#include "population/ResponderFit.h"
 #include "population/Tuning.h"
 
 namespace heft::cli {
@@ -36,25 +37,12 @@ struct TuneOptions {
   bool json = false;
 };
 
-// "10g..1000g", "10..1000"
-Ends read_ends(const std::string& option, std::string text, const std::string& unit) {
-  const auto refuse = [&, given = text] {
-    return Error(fmt::format("{} {}: expected two numbers above 0, the smaller one first, such as "
-                             "10{}..1000{}",
-                             option, given, unit, unit),
-                 ExitCode::usage);
-  };
-  const std::size_t dots = text.find("..");
-  if (dots == std::string::npos) throw refuse();
-  const auto number = [&](std::string part) {
-    if (!unit.empty() && part.ends_with(unit)) part.resize(part.size() - unit.size());
-    const std::optional<double> value = number_in(part);
-    if (!value || !(*value > 0)) throw refuse();
-    return *value;
-  };
-  const Ends ends{number(text.substr(0, dots)), number(text.substr(dots + 2))};
-  if (!(ends.low < ends.high)) throw refuse();
-  return ends;
+Ends read_ends(const std::string& option, const std::string& text, const std::string& unit) {
+  if (const auto range = positive_range_in(text, unit)) return {range->first, range->second};
+  throw Error(fmt::format("{} {}: expected two numbers above 0, the smaller one first, such as "
+                          "10{}..1000{}",
+                          option, text, unit, unit),
+              ExitCode::usage);
 }
 
 std::string percent(const ThresholdAtMass& one) {
