@@ -26,7 +26,6 @@ std::vector<SessionData> two_people() {
   add_number(grams, 100, 100);
   add_number(grams, 100, 0);
   add_number(grams, 10000, 10000);
-  add_number(grams, 10000, 777).trial.plan.is_practice = true;
   add_number(grams, 10000, 777).trial.status = TrialStatus::voided;
   return {root, grams};
 }

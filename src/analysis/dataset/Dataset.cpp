@@ -19,7 +19,7 @@ namespace heft {
 
 bool Attempt::has_comparison() const {
   return completed() && trial.plan.task == "comparison" && trial.outcome &&
-         trial.plan.reference_g && trial.plan.level_g && !trial.plan.is_practice;
+         trial.plan.reference_g && trial.plan.level_g;
 }
 
 std::vector<double> Attempt::masses_g() const {

@@ -34,7 +34,7 @@ struct Attempt {
   ComparisonAnswers answers_offered = ComparisonAnswers::heavier_or_none;
 
   bool completed() const { return trial.status == TrialStatus::completed; }
-  /// A completed comparison with an answer and a level, no practice: of three answers, or others.
+  /// A completed comparison with an answer and a level: of three answers, or others.
   bool is_usable_comparison(ComparisonAnswers answered = ComparisonAnswers::heavier_or_none) const {
     return has_comparison() && answers_offered == answered;
   }

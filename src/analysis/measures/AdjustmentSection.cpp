@@ -50,7 +50,7 @@ class AdjustmentSection final : public Section {
     for (const Attempt& attempt : data.attempts) {
       const TrialRow& trial = attempt.trial;
       if (attempt.completed() && trial.plan.task == "adjustment" && trial.value &&
-          trial.plan.reference_g && !trial.plan.is_practice)
+          trial.plan.reference_g)
         people_[{trial.plan.condition, *trial.plan.reference_g}][data.participant()].push_back(
             *trial.value);
     }

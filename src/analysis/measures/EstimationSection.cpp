@@ -101,7 +101,7 @@ class EstimationSection final : public Section {
     for (const Attempt& attempt : data.attempts) {
       const TrialRow& trial = attempt.trial;
       if (!attempt.completed() || !trial.value || !std::isfinite(*trial.value) ||
-          trial.plan.is_practice || trial.plan.task != "estimation" || attempt.cubes.size() != 1)
+          trial.plan.task != "estimation" || attempt.cubes.size() != 1)
         continue;
       const CubeRow& shown = attempt.cubes.front();
       const CubeKind cube{shown.mass_g, shown.table_friction};

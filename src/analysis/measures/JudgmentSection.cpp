@@ -75,9 +75,7 @@ class JudgmentSection final : public Section {
   void add(const SessionData& data) override {
     for (const Attempt& attempt : data.attempts) {
       const TrialRow& trial = attempt.trial;
-      if (!attempt.completed() || trial.plan.task != "judgment" || !trial.value ||
-          trial.plan.is_practice)
-        continue;
+      if (!attempt.completed() || trial.plan.task != "judgment" || !trial.value) continue;
       Shown shown{trial.plan.block, trial.plan.condition, {}};
       for (const CubeRow& cube : attempt.cubes)
         shown.cubes.emplace_back(cube.mass_g, cube.table_friction);

@@ -31,7 +31,6 @@ std::vector<SessionData> two_people() {
   for (const double value : {200, 50}) add_adjustment(other, 100, value);
   add_adjustment(one, 200, 210);
   add_adjustment(other, 200, 240);
-  add_adjustment(other, 100, 777).trial.plan.is_practice = true;
   add_adjustment(other, 100, 777).trial.status = TrialStatus::voided;
   add_adjustment(other, 100, 777, "C1");
   Attempt& judgment = add_adjustment(other, 100, 777);

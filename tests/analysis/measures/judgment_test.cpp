@@ -40,7 +40,6 @@ std::vector<SessionData> two_people(const FormQuestion& asked) {
   add_judgment(one, {200, 100}, 100);
   add_judgment(other, {100}, 4);
   add_judgment(other, {100, 200}, 900);
-  add_judgment(other, {100}, 777).trial.plan.is_practice = true;
   add_judgment(other, {100}, 777).trial.status = TrialStatus::voided;
   add_attempt(other, "estimation", {100}).trial.value = 777;
   return {one, other};
