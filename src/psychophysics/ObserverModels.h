@@ -57,7 +57,7 @@ struct PsychometricParameters {
 double probability(const PsychometricFunction& function, const PsychometricParameters& parameters,
                    double level);
 
-/// Indecision model, or 2-AC (Christensen, Lee & Brockhoff 2011; Garcia-Perez & Alcala-Quintana
+/// Indecision model, or 2-AC (Christensen, Lee & Brockhoff 2012; Garcia-Perez & Alcala-Quintana
 /// 2017): the decision variable is D = sensitivity * level + bias + N(0, 1); the response is
 /// "comparison" if D > indecision, "reference" if D < -indecision, otherwise "none". A lapse is one
 /// of the three at random.

@@ -20,7 +20,7 @@ struct SourceText {
 constexpr std::array<SourceText, 14> sources{{
     {"Issartel et al., 2015",
      "Issartel, P., Guéniat, F., Coquillart, S., & Ammi, M. (2015). Perceiving mass in mixed "
-     "reality through pseudo-haptic rendering of Newton's third law. IEEE Virtual Reality."},
+     "reality through pseudo-haptic rendering of Newton's third law. IEEE Virtual Reality, 41–46."},
     {"Levitt, 1971",
      "Levitt, H. (1971). Transformed up-down methods in psychoacoustics. Journal of the Acoustical "
      "Society of America, 49, 467–477."},
@@ -36,12 +36,13 @@ constexpr std::array<SourceText, 14> sources{{
     {"Kontsevich & Tyler, 1999",
      "Kontsevich, L. L., & Tyler, C. W. (1999). Bayesian adaptive estimation of psychometric slope "
      "and threshold. Vision Research, 39, 2729–2737."},
-    {"Christensen, Lee & Brockhoff, 2011",
-     "Christensen, R. H. B., Lee, H.-S., & Brockhoff, P. B. (2011). Estimation of the Thurstonian "
+    {"Christensen, Lee & Brockhoff, 2012",
+     "Christensen, R. H. B., Lee, H.-S., & Brockhoff, P. B. (2012). Estimation of the Thurstonian "
      "model for the 2-AC protocol. Food Quality and Preference, 24, 119–128."},
     {"García-Pérez & Alcalá-Quintana, 2017",
      "García-Pérez, M. A., & Alcalá-Quintana, R. (2017). The indecision model of psychophysical "
-     "performance in dual-presentation tasks. Frontiers in Psychology, 8, 1142."},
+     "performance in dual-presentation tasks: parameter estimation and comparative analysis of "
+     "response formats. Frontiers in Psychology, 8, 1142."},
     {"Pinheiro & Bates, 1995",
      "Pinheiro, J. C., & Bates, D. M. (1995). Approximations to the log-likelihood function in the "
      "nonlinear mixed-effects model. Journal of Computational and Graphical Statistics, 4, 12–35."},
