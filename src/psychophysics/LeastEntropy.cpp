@@ -126,7 +126,8 @@ ConfigMistakes PsiConfig::check() const {
   for (std::size_t i = 0; i < names.size(); ++i)
     any_interest |=
         is_free(*grids()[i]) && std::ranges::count(nuisance, std::string(names[i])) == 0;
-  for (std::size_t i = 0; i < 2; ++i)
+  // Without a third answer there is no criterion: forced choices have an indecision of 0.
+  for (std::size_t i = 0; i < (is_indecision() ? 1 : 2); ++i)
     if (grids()[i]->values.size() == 1)
       found.push_back({{names[i]},
                        fmt::format("{} has one value", names[i]),

@@ -196,6 +196,7 @@ TEST(LeastEntropyConfig, NamesItsMistakes) {
               ElementsAre("levels has 5 after 10, expected ascending values"));
   EXPECT_THAT(with([](auto& c) { c.sensitivity = {{0.1}}; }),
               ElementsAre(HasSubstr("sensitivity has one value")));
+  EXPECT_THAT(with([](auto& c) { c.indecision = {{0}}; }), ElementsAre());  // forced choices
   EXPECT_THAT(with([](auto& c) { c.nuisance = {"slope"}; }),
               ElementsAre(HasSubstr("nuisance has \"slope\"")));
   EXPECT_THAT(with([](auto& c) {
