@@ -15,6 +15,7 @@
 #include "results/paper/PaperStudy.h"
 #include "results/physics/PhysicsStudy.h"
 #include "results/pipeline/Chain.h"
+#include "results/procedures/ProceduresStudy.h"
 #include "results/tracking/TrackingStudy.h"
 
 namespace heft {
@@ -29,6 +30,8 @@ constexpr auto table = std::to_array<StudyEntry>({
      run_effector_study},
     {"paper", "rival models of participants: which give the figures that the paper reports",
      run_paper_study},
+    {"procedures", "which procedure finds a threshold in few trials, for 24 kinds of people",
+     run_procedures_study},
     {"pipeline", "what each stage of a picture costs, and memory over an hour", run_pipeline_study},
 });
 }  // namespace
