@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <numeric>
 
 namespace heft {
@@ -90,15 +89,25 @@ void LikelihoodTable::visit_points(const std::vector<double>& levels, const Visi
   }
 }
 
-std::vector<double> LikelihoodTable::log_likelihood(double level, const Response& response) const {
-  std::vector<double> log_likelihood(n_points_);
+std::shared_ptr<const std::vector<double>> LikelihoodTable::log_likelihood(
+    double level, const Response& response) const {
+  constexpr std::size_t most_kept = 4'000'000;  // numbers: 32 MB
   const auto outcomes = space_.model.outcomes_of(response);
+  {
+    const std::lock_guard lock(kept_mutex_);
+    if (const auto found = kept_.find({level, outcomes}); found != kept_.end())
+      return found->second;
+  }
+  auto log_likelihood = std::make_shared<std::vector<double>>(n_points_);
   visit_points({level}, [&](std::size_t i, const std::vector<OutcomeShares>& shares) {
     double p = 0;
     for (std::size_t k = 0; k < outcomes.size(); ++k)
       if (outcomes[k]) p += shares[0][k];
-    log_likelihood[i] = finite_log(p);
+    (*log_likelihood)[i] = finite_log(p);
   });
+  const std::lock_guard lock(kept_mutex_);
+  if ((kept_.size() + 1) * n_points_ <= most_kept)
+    kept_.try_emplace({level, outcomes}, log_likelihood);
   return log_likelihood;
 }
 
@@ -106,7 +115,7 @@ PosteriorGrid::PosteriorGrid(std::shared_ptr<const LikelihoodTable> table)
     : table_(std::move(table)), posterior_(std::vector<double>(table_->n_points())) {}
 
 void PosteriorGrid::update(double level, const Response& response) {
-  posterior_.add(table_->log_likelihood(level, response));
+  posterior_.add(*table_->log_likelihood(level, response));
 }
 
 std::vector<double> PosteriorGrid::expected_entropies() const {

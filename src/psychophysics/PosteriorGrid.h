@@ -3,8 +3,11 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "psychophysics/Marginal.h"
@@ -50,8 +53,10 @@ class LikelihoodTable {
   /// Entropy of the outcome at a point by level, in nats. Only without nuisance parameters.
   const float* entropy(std::size_t i) const { return outcome(i, space_.model.n_outcomes()); }
 
-  /// Log probability of a response at any level, for every point; finite.
-  std::vector<double> log_likelihood(double level, const Response& response) const;
+  /// Log probability of a response at any level, for every point; finite. Kept for the next time
+  /// while memory for it remains: simulated people repeat the same trials. Thread-safe.
+  std::shared_ptr<const std::vector<double>> log_likelihood(double level,
+                                                            const Response& response) const;
 
  private:
   template <typename Visit>
@@ -61,6 +66,10 @@ class LikelihoodTable {
   std::size_t n_points_, n_nuisance_, n_rows_;
   std::array<std::size_t, 4> stride_{};
   std::vector<float> table_;
+  mutable std::mutex kept_mutex_;
+  mutable std::map<std::pair<double, std::array<bool, 3>>,
+                   std::shared_ptr<const std::vector<double>>>
+      kept_;
 };
 
 /// A probability distribution over the points of a table; uniform before the first trial.

@@ -178,6 +178,37 @@ TEST(LeastEntropy, AThresholdBeyondTheGridHasABound) {
   EXPECT_EQ(test::estimate_of(detection, 2, observer(200)).censored, Censored::none);
 }
 
+// Kept or made anew, to the bit: a replay may follow other trials than the session did.
+TEST(LikelihoodTable, GivesTheSameWhetherItKeptItOrNot) {
+  const GridSpace space = test::heavier_at_200g(40).space();
+  const LikelihoodTable used(space);
+  RandomStream draw(3, "trials");
+  for (int trial = 0; trial < 200; ++trial) {
+    const double level =
+        draw.coin(0.5) ? space.levels[draw.below(space.levels.size())] : 600 * draw.uniform();
+    const Response response = response_of(static_cast<Choice>(draw.below(3)));
+    const auto once = used.log_likelihood(level, response);
+    EXPECT_EQ(used.log_likelihood(level, response), once);
+    EXPECT_EQ(*LikelihoodTable(space).log_likelihood(level, response), *once);
+  }
+}
+
+TEST(LikelihoodTable, KeepsNoMoreThanItsMemoryAllows) {
+  PsiConfig config = test::heavier_at_200g(40);
+  config.sensitivity = test::ratios(0.001, 0.1, 2000);
+  config.levels = {{0, 100}};
+  const LikelihoodTable table(config.space());
+  const std::size_t most = 4'000'000 / table.n_points();
+  for (std::size_t i = 0; i < most; ++i)
+    table.log_likelihood(static_cast<double>(i), {true, Choice::comparison});
+  const auto first = table.log_likelihood(0, {true, Choice::comparison});
+  EXPECT_EQ(table.log_likelihood(0, {true, Choice::comparison}), first);
+  const auto beyond = table.log_likelihood(-1, {true, Choice::comparison});
+  const auto again = table.log_likelihood(-1, {true, Choice::comparison});
+  EXPECT_NE(again, beyond);
+  EXPECT_EQ(*again, *beyond);
+}
+
 TEST(LeastEntropyConfig, NamesItsMistakes) {
   const PsiConfig good = test::heavier_at_200g(40);
   EXPECT_THAT(mistakes_of(good), ElementsAre());

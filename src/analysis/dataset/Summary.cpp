@@ -151,6 +151,7 @@ Summary analyze(const AnalysisOptions& options) {
   summary.database = sessions.database();
   summary.command = options.command;
   summary.integrity = options.integrity;
+  summary.checks_models = options.check_models;
   return summarize(std::move(summary), each, sessions.n_withdrawn());
 }
 

@@ -26,6 +26,8 @@ struct AnalysisOptions {
   bool mix = false;                       ///< put sessions of several purposes together
   std::string command;                    ///< what was typed; below every chart
   LogIntegrity integrity = {};
+  /// Check models by simulated studies, which takes longest.
+  bool check_models = true;
 };
 
 /// One session and how much of it counts.
@@ -69,6 +71,7 @@ class Section;
 struct Summary {
   std::string database, command;
   LogIntegrity integrity = {};
+  bool checks_models = true;  ///< by simulated studies
   std::string data;  ///< "human", "simulated" or "human and simulated"; empty: no sessions
   std::vector<SessionSummary> sessions;
   int n_participants = 0;                    ///< that count

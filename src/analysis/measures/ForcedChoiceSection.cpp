@@ -86,7 +86,9 @@ class ForcedChoiceSection final : public Section {
   void put(Summary& summary) override {
     for (const auto& [compared, people] : people_)
       for (const auto& [participant, answers] : people)
-        goodness_[{compared, participant}] = goodness_of(compared, participant, answers);
+        goodness_[{compared, participant}] = summary.checks_models
+                                                 ? goodness_of(compared, participant, answers)
+                                                 : GoodnessOfFit{.why = "not checked"};
     const Estimates own = of_participants(summary);
     for (const auto& people : together(own)) {
       const Measure* measure = people.front()->measure;

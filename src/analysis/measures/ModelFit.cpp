@@ -104,7 +104,8 @@ EstimateTable model_fit_table() {
        column(predicted, Field::low, "predicted_low", "predicted from", 2),
        column(predicted, Field::high, "predicted_high", "to", 2)},
       "people drawn from the fitted model run each participant's staircases from the first trial "
-      "on, in 500 studies (fewer with more than 200 people). p: the share of these studies in "
+      "on, in 500 studies (100 to 500 with more than 200 people, 100 of Bayesian procedures). p: "
+      "the share of these studies in "
       "which a figure is as far from its mean, in SDs, as the farthest one here. Below .05, "
       "divided by the number of rows, the model does not hold. All figures: predictive_checks."};
 }

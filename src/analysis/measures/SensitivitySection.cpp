@@ -219,7 +219,7 @@ class SensitivitySection final : public Section {
     const ComparisonTrials& trials = summary.shared->comparisons;
     sensitivity_ = sensitivities_of(trials);
     put_sensitivities(summary.estimates, sensitivity_);
-    put_model_fit(summary.estimates, sensitivity_, trials, runs_);
+    if (summary.checks_models) put_model_fit(summary.estimates, sensitivity_, trials, runs_);
     runs_ = {};
   }
 

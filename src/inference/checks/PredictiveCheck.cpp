@@ -297,9 +297,14 @@ std::optional<PredictedShares::Band> band(const std::vector<std::vector<Shares>>
   return PredictedShares::Band{of.mean, of.low, of.high};
 }
 
-// Of few people many studies, of many few: a hundred distinguish a share of .05 from .1.
-std::size_t studies_for(std::size_t n_people) {
-  return std::clamp<std::size_t>(100'000 / n_people, 100, 500);
+// Of few people many studies; of many people, or of Bayesian procedures, which take long, few: a
+// hundred distinguish a share of .05 from .1.
+std::size_t studies_for(std::span<const PersonRuns> people) {
+  const bool any_bayesian = std::ranges::any_of(people, [](const PersonRuns& person) {
+    return std::ranges::any_of(person.staircases,
+                               [](const StaircaseRun& run) { return run.before->is_bayesian(); });
+  });
+  return std::clamp<std::size_t>(100'000 / people.size(), 100, any_bayesian ? 100 : 500);
 }
 }  // namespace
 
@@ -318,7 +323,7 @@ PredictiveCheck check_predictions(const MixedFit& fit, std::span<const PersonRun
     seen.add_catch(person.n_catch, person.n_catch_none);
     seen.end_person();
   }
-  const std::size_t n_studies = studies_for(people.size());
+  const std::size_t n_studies = studies_for(people);
   std::vector<std::vector<double>> predicted(n_studies);
   std::vector<std::vector<Shares>> by_level(n_studies);
   in_parallel(n_studies, 20, [&](std::size_t first, std::size_t last) {
