@@ -172,6 +172,7 @@ void Engine::start_trial(double t_s, Changes& changes) {
   open_.emplace(row, attempt_at(*next_.plan), plan_->require_contact, onset_.min_answer_s);
   end_rest();
   begun_.insert(open_->plan().block);
+  was_practice_ = open_->plan().is_practice;
   changes.attempt_index = n_attempts_;
   changes.trial = open_->row();
   changes.cubes = open_->cubes();

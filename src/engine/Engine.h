@@ -100,6 +100,11 @@ class Engine {
   /// Whether a trial of the block was started.
   bool has_begun(const std::string& block) const { return begun_.contains(block); }
 
+  /// Whether the next trial counts and the last attempt was practice.
+  bool practice_has_ended() const {
+    return was_practice_ && next_.kind == Next::Kind::trial && !next_.plan->is_practice;
+  }
+
   bool trial_is_open() const { return open_.has_value(); }
   /// Whether the session is paused because a trial was voided max_voids times in a row.
   bool needs_experimenter() const { return paused_ && n_voids_ >= max_voids; }
@@ -145,6 +150,7 @@ class Engine {
   std::size_t block_ = 0;         // of the next or open trial
   std::unique_ptr<TaskRun> run_;  // of that block; null: no trials left
   std::set<std::string> begun_;
+  bool was_practice_ = false;  // the last attempt
   std::optional<BreakBlock> rest_;
   std::size_t rested_ = 0;  // breaks before this block were taken; a veto does not repeat them
 

@@ -12,6 +12,8 @@ namespace heft {
 
 namespace {
 constexpr double still_page_step_s = 0.1;
+// Its instructions belong to no task: [instructions_after_practice].
+constexpr std::string_view after_practice_page = "after_practice";
 }  // namespace
 
 bool Pages::welcome() {
@@ -55,6 +57,13 @@ void Pages::instructions(const std::string& block, const Task& task) {
                        .task = task,
                        .wording = std::string(task_block(protocol_, block).wording())});
   if (end == TouchKind::next) instructed_.insert(block);
+}
+
+// Texts may lack the page: older ones do.
+void Pages::after_practice(const std::string& block) {
+  const ScreenState screen{.screen = Screen::instructions, .task = Task(after_practice_page)};
+  if (task_block(protocol_, block).practice && texts_->pages.contains(text_page(screen)))
+    show(screen);
 }
 
 void Pages::demonstration(const DemonstrationBlock& block, const Apparatus& apparatus,

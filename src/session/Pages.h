@@ -79,6 +79,9 @@ class Pages {
   /// The instructions of a block, unless completed before.
   void instructions(const std::string& block, const Task& task);
 
+  /// Between the practice of a block and its trials that count. A block without practice has none.
+  void after_practice(const std::string& block);
+
   /// The demonstration, for at least the block's duration and until the person continues.
   /// @param apparatus, left_hand as Demonstration
   void demonstration(const DemonstrationBlock& block, const Apparatus& apparatus, bool left_hand);

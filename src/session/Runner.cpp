@@ -177,7 +177,8 @@ void Runner::run_trial(const TrialPlan& plan) {
                          plan.trial_number)});
   }
   if (pages_.has_reader()) pages_.instructions(plan.block, plan.task);
-  fade_out();
+  fade_out();  // with the feedback of practice
+  if (pages_.has_reader() && parts_.engine.practice_has_ended()) pages_.after_practice(plan.block);
   const Next& next = parts_.engine.next();
   const bool still_due = next.kind == Next::Kind::trial &&
                          next.plan->trial_number == plan.trial_number &&

@@ -85,6 +85,52 @@ TEST(Person, GoesThroughAllPagesAndTrials) {
   EXPECT_GE(session.events(event_kind<BreakTaken>).at(0).as<BreakTaken>()->duration_s, 0.1);
 }
 
+TaskBlock practiced_sorting(const std::string& name) {
+  TaskBlock block(Sorting::Block{name, {15, 200, 800}, {{"C2", 2}}, 0});
+  block.practice = Practice{2, 0, false};
+  return block;
+}
+
+TEST(Person, LearnsThatPracticeIsOverBeforeTheTrialsThatCount) {
+  Protocol protocol = quick_protocol();
+  protocol.blocks = {practiced_sorting("one"), practiced_sorting("other")};
+  Session session(protocol);
+  EXPECT_EQ(session.run(), RunEnd::finished);
+  std::vector<std::string> pages = pages_of(session.sink);
+  std::erase(pages, "welcome");
+  const std::vector<std::string> of_block{"instructions_sorting", "trial_sorting",
+                                          "instructions_after_practice", "trial_sorting"};
+  std::vector<std::string> expected = of_block;
+  expected.insert(expected.end(), of_block.begin(), of_block.end());
+  expected.emplace_back("thanks");
+  EXPECT_EQ(pages, expected);
+  bool is_practice = true;
+  for (const RecordedEntry& entry : session.sink.entries()) {
+    const auto* recorded = std::get_if<RecordedEvent>(&entry);
+    if (!recorded) continue;
+    const auto* shown = recorded->event.as<TextShown>();
+    if (shown && shown->page == "instructions_sorting") is_practice = true;
+    if (shown && shown->page == "instructions_after_practice") is_practice = false;
+    if (recorded->event.as<TrialStarted>()) {
+      EXPECT_EQ(recorded->changes.trial->plan.is_practice, is_practice);
+    }
+  }
+}
+
+TEST(Person, WithoutPracticeOrItsPageReadsNothingOfIt) {
+  const auto shows_page = [](const Protocol& protocol, bool has_text) {
+    Session session(protocol);
+    if (!has_text) session.texts.pages.erase("instructions_after_practice");
+    EXPECT_EQ(session.run(), RunEnd::finished);
+    return std::ranges::count(pages_of(session.sink), "instructions_after_practice") > 0;
+  };
+  EXPECT_FALSE(shows_page(quick_protocol(), true));
+  Protocol protocol = quick_protocol();
+  protocol.blocks = {practiced_sorting("one")};
+  EXPECT_TRUE(shows_page(protocol, true));
+  EXPECT_FALSE(shows_page(protocol, false)) << "texts from before it";
+}
+
 TEST(Person, WhoDoesNotAgreeTakesNoPart) {
   Protocol protocol = quick_protocol();
   protocol.screens.consent = true;
@@ -490,6 +536,23 @@ TEST(Person, WhoComesBackInTheMiddleOfABlockIsNotInstructedAgain) {
   EXPECT_THAT(pages_of(sink), ElementsAre("trial_comparison", "instructions_comparison",
                                           "trial_comparison", "thanks"))
       << "of the next block they are";
+}
+
+TEST(Person, WhoLeavesAfterPracticeIsToldAgainThatItIsOver) {
+  Protocol protocol = quick_protocol();
+  protocol.blocks = {practiced_sorting("one")};
+  bool closes = true;
+  Session session(protocol, [&](const ViewFrame& picture, const ScreenState& screen) {
+    if (screen.task != "after_practice" || !std::exchange(closes, false))
+      return patient(picture, screen);
+    return std::vector{touch(TouchKind::close)};
+  });
+  EXPECT_EQ(session.run(), RunEnd::stopped);
+  EXPECT_EQ(session.engine.n_completed(), 2);
+  RecordedSession sink{SessionHeader{}};
+  EXPECT_EQ(go_on(session, sink), RunEnd::finished);
+  EXPECT_THAT(pages_of(sink),
+              ElementsAre("instructions_after_practice", "trial_sorting", "thanks"));
 }
 
 TEST(Person, ReadsInstructionsAgainThatTheyWereInTheMiddleOf) {

@@ -74,6 +74,7 @@ inline std::vector<NamedScreen> page_screens() {
           {"instructions_introduction", page_state(Screen::instructions, "introduction")},
           {"instructions_sorting", page_state(Screen::instructions, "sorting")},
           {"instructions_comparison", page_state(Screen::instructions, "comparison")},
+          {"instructions_after_practice", page_state(Screen::instructions, "after_practice")},
           {"rest_waiting", page_state(Screen::rest, "sorting", 64.2)},
           {"rest", page_state(Screen::rest)},
           {"paused", page_state(Screen::paused)},

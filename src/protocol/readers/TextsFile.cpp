@@ -43,7 +43,8 @@ constexpr std::array required_pages{
     PageKeys{"thanks", "title text"}};
 /// Pages that may be missing in older files.
 constexpr std::array later_pages{PageKeys{"declined", "title text take_back leave"},
-                                 PageKeys{"setting_up", "title text"}};
+                                 PageKeys{"setting_up", "title text"},
+                                 PageKeys{"instructions_after_practice", "title text"}};
 
 struct TaskPage {
   std::string page, keys;                            // of all its blocks

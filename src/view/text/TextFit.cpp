@@ -35,6 +35,9 @@ std::vector<ScreenState> states(const ScreenTexts& texts) {
       all.push_back(trial);
     }
   }
+  if (const ScreenState page{.screen = Screen::instructions, .task = "after_practice"};
+      texts.pages.contains(text_page(page)))
+    all.push_back(page);
   all.push_back({.screen = Screen::rest, .wait_s = 599});
   for (const auto& [name, questionnaire] : texts.questionnaires)
     all.push_back({.screen = Screen::questionnaire, .form = name, .form_prefix = name});
