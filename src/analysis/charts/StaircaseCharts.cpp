@@ -215,13 +215,14 @@ std::vector<Chart> multiples_charts(const Summary& summary) {
   for (const SessionTracks& session : summary.all_tracks)
     for (const Track& track : session.tracks) all.emplace(track.compared, &track);
   std::vector<Chart> charts;
-  for (const auto& [compared, track] : all) {
+  for (const auto& one : all) {
     const auto same = std::ranges::count_if(all, [&](const auto& other) {
-      return other.first.reference_g == compared.reference_g && other.first.block == compared.block;
+      return other.first.reference_g == one.first.reference_g &&
+             other.first.block == one.first.block;
     });
-    std::string name = chart_name(*track, same > 1);
+    std::string name = chart_name(*one.second, same > 1);
     while (std::ranges::count(charts, name, &Chart::name) > 0) name += "_";
-    charts.push_back(all_at(summary, *track, name));
+    charts.push_back(all_at(summary, *one.second, name));
   }
   return charts;
 }
