@@ -26,13 +26,15 @@ std::string_view title_of(AnswerSet answers) {
   return answers == AnswerSet::three_way ? "three answers" : "forced choice";
 }
 
+bool is_posterior(StudiedProcedure::Own own) {
+  return own == StudiedProcedure::Own::posterior;
+}
+
 std::string row_name(const ObserverFigures& row) {
-  const bool own = row.estimator == Estimator::own;
-  const bool posterior = row.procedure.starts_with("QUEST") || row.procedure == "Psi";
   return fmt::format("{}: {}", row.procedure,
-                     !own        ? "fit of all trials"
-                     : posterior ? "posterior"
-                                 : "mean of reversals");
+                     row.estimator == Estimator::fit ? "fit of all trials"
+                     : is_posterior(row.own)         ? "posterior"
+                                                     : "mean of reversals");
 }
 
 struct Tile {
@@ -104,16 +106,16 @@ std::size_t color_of(std::string_view procedure) {
 }
 
 /// Median over people, in the order of trials_read; NaN where too few runs gave a threshold.
-std::vector<double> median_errors(const std::vector<ObserverFigures>& figures, AnswerSet answers,
-                                  std::string_view procedure, Estimator estimator) {
+/// @param line a row of the same answers, procedure and estimator
+std::vector<double> median_errors(const std::vector<ObserverFigures>& figures,
+                                  const ObserverFigures& line) {
   std::vector<double> medians;
   for (const int n_trials : trials_read) {
     std::vector<double> errors;
     for (const ObserverFigures& row : figures)
-      if (row.answers == answers && row.procedure == procedure && row.estimator == estimator &&
-          row.n_trials == n_trials && is_person(row.observer))
+      if (row.answers == line.answers && row.procedure == line.procedure &&
+          row.estimator == line.estimator && row.n_trials == n_trials && is_person(row.observer))
         errors.push_back(2 * row.n_printed < row.n_runs ? INFINITY : row.rmse);
-    if (errors.empty()) return {};
     std::ranges::sort(errors);
     const double median = errors[errors.size() / 2];
     medians.push_back(std::isfinite(median) ? median : NAN);
@@ -160,26 +162,24 @@ std::string errors_chart(const std::vector<ObserverFigures>& figures, const Stud
   double left = 0.06;
   for (const AnswerSet answers : {AnswerSet::three_way, AnswerSet::forced_choice}) {
     std::string data, plot = "plot ";
-    for (const StudiedProcedure& studied : studied_procedures()) {
-      if (studied.answers != answers) continue;
-      const bool posterior = studied.own == StudiedProcedure::Own::posterior;
-      const std::size_t color = color_of(studied.name);
-      for (const Estimator estimator : {Estimator::own, Estimator::fit}) {
-        if (posterior && estimator == Estimator::fit) continue;
-        const auto errors = median_errors(figures, answers, studied.name, estimator);
-        if (errors.empty()) continue;
-        const bool dashed = !posterior && estimator == Estimator::own;
-        const std::string block = fmt::format("$line{}_{}", color, dashed);
-        data += block + " << END\n";
-        for (std::size_t i = 0; i < errors.size(); ++i)
-          data += fmt::format("{} {}\n", trials_read[i], errors[i]);
-        data += "END\n";
-        plot += fmt::format(
-            "{} using 1:2 with linespoints pointtype {} pointsize 0.6 linewidth 2 dashtype {} "
-            "linecolor '{}' {}, ",
-            block, series_sign(color), dashed ? 2 : 1, series_color(color),
-            dashed ? "notitle" : "title " + gnuplot_quoted(studied.name));
-      }
+    for (const ObserverFigures& row : figures) {
+      const bool is_first_of_line =
+          row.observer == figures.front().observer && row.n_trials == trials_read.front();
+      const bool posterior = is_posterior(row.own), fitted = row.estimator == Estimator::fit;
+      if (row.answers != answers || !is_first_of_line || (posterior && fitted)) continue;
+      const bool dashed = !posterior && !fitted;
+      const std::size_t color = color_of(row.procedure);
+      const std::string block = fmt::format("$line{}_{}", color, dashed);
+      const auto errors = median_errors(figures, row);
+      data += block + " << END\n";
+      for (std::size_t i = 0; i < errors.size(); ++i)
+        data += fmt::format("{} {}\n", trials_read[i], errors[i]);
+      data += "END\n";
+      plot += fmt::format(
+          "{} using 1:2 with linespoints pointtype {} pointsize 0.6 linewidth 2 dashtype {} "
+          "linecolor '{}' {}, ",
+          block, series_sign(color), dashed ? 2 : 1, series_color(color),
+          dashed ? "notitle" : "title " + gnuplot_quoted(row.procedure));
     }
     script += data + gnuplot_place(left, left + 0.42, 90, height_px - 250);
     script += fmt::format("set title {}\nset ylabel '{}'\n", gnuplot_quoted(title_of(answers)),

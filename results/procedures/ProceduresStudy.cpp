@@ -1,17 +1,13 @@
 #include "results/procedures/ProceduresStudy.h"
 
 #include <cmath>
-#include <numeric>
 
 #include "base/Parallel.h"
+#include "inference/Statistics.h"
 
 namespace heft {
 
 namespace {
-double mean_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 /// One person's session by one procedure, up to any of its trials.
 class Session {
  public:
@@ -56,7 +52,7 @@ class Session {
   // Of a procedure that has not ended, what it has so far.
   Reading by_reversals() const {
     const double value =
-        finished_.empty() ? procedure_.estimates().front().value.value_or(0) : mean_of(finished_);
+        finished_.empty() ? procedure_.estimates().front().value.value_or(0) : *mean(finished_);
     Reading reading;
     if (value > 0) reading.threshold_g = value;
     return reading;
@@ -133,11 +129,11 @@ void put_figures(ObserverFigures& figures, const std::vector<Reading>& readings,
   figures.criterion_rmse = figures.criterion_bias = NAN;
   if (!is_person || errors.empty()) return;
   figures.rmse = rms(errors);
-  figures.bias = mean_of(errors);
+  figures.bias = *mean(errors);
   if (n_intervals > 0) figures.coverage = n_held / n_intervals;
   if (criterion_errors.empty()) return;
   figures.criterion_rmse = rms(criterion_errors);
-  figures.criterion_bias = mean_of(criterion_errors);
+  figures.criterion_bias = *mean(criterion_errors);
 }
 
 std::vector<ObserverFigures> figures_of(const StudiedProcedure& studied, const Observer& observer,
@@ -159,8 +155,8 @@ std::vector<ObserverFigures> figures_of(const StudiedProcedure& studied, const O
     for (std::size_t i = 0; i < n_read; ++i) {
       const auto& of_estimator = readings[static_cast<std::size_t>(estimator)][i];
       if (of_estimator.empty()) continue;
-      ObserverFigures figures{studied.name, observer.name, studied.answers, estimator,
-                              trials_read[i]};
+      ObserverFigures figures{studied.name, observer.name, studied.answers,
+                              studied.own,  estimator,     trials_read[i]};
       put_figures(figures, of_estimator, truth_of(observer, trials_read[i]),
                   observer.kind == Observer::Kind::person);
       all.push_back(figures);

@@ -70,6 +70,7 @@ struct EnumNames<Estimator> {
 struct ObserverFigures {
   std::string_view procedure, observer;
   AnswerSet answers{};
+  StudiedProcedure::Own own{};  ///< what the procedure says itself
   Estimator estimator{};
   int n_trials = 0, n_runs = 0, n_printed = 0;  ///< printed: runs that gave a threshold
   /// Of the natural logarithm of the threshold, against its mean over the trials.

@@ -178,7 +178,7 @@ TEST(LeastEntropy, AThresholdBeyondTheGridHasABound) {
   EXPECT_EQ(test::estimate_of(detection, 2, observer(200)).censored, Censored::none);
 }
 
-// Kept or made anew, to the bit: a replay may follow other trials than the session did.
+// Kept or computed again, they are equal: a replay may follow other trials than the session did.
 TEST(LikelihoodTable, GivesTheSameWhetherItKeptItOrNot) {
   const GridSpace space = test::heavier_at_200g(40).space();
   const LikelihoodTable used(space);
