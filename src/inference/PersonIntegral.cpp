@@ -79,9 +79,9 @@ class TailTable {
   std::array<Point, 12 * 64 + 2> at_;
 };
 
-double fast_normal_cdf(double z) {
-  static const TailTable tail;
-  return z > 0 ? 1 - tail(-z) : tail(z);
+inline double fast_normal_cdf(const TailTable& tail, double z) {
+  const double beyond = tail(-std::abs(z));
+  return z > 0 ? 1 - beyond : beyond;
 }
 
 // The normal distribution of effects over people.
@@ -275,22 +275,27 @@ void PersonIntegral::put_nodes(const Parameters& population) {
   log_weights_ = log_weight - factor.matrixLLT().diagonal().array().log().sum();
 }
 
+// Answer by answer: neighboring nodes mostly lie on the same side of 0.
 void PersonIntegral::put_shares() {
+  static const TailTable tail;
+  const auto cdf = [](double z) { return fast_normal_cdf(tail, z); };
+  std::vector<IndecisionParameters> own;
+  for (Eigen::Index node = 0; node < effects_.rows(); ++node)
+    own.push_back(own_parameters(effects_.row(node), 0));
   shares_.resize(effects_.rows(), static_cast<Eigen::Index>(given_.size()));
-  for (Eigen::Index node = 0; node < effects_.rows(); ++node) {
-    const IndecisionParameters own = own_parameters(effects_.row(node), 0);
-    for (Eigen::Index i = 0; const Given& given : given_) {
-      const double felt = own.sensitivity * given.level + own.bias;
-      const double up = felt - own.indecision, down = felt + own.indecision;
-      shares_(node, i++) = given.answer == comparison_answer  ? fast_normal_cdf(up)
-                           : given.answer == reference_answer ? fast_normal_cdf(-down)
-                           : up > 0 ? fast_normal_cdf(-up) - fast_normal_cdf(-down)
-                                    : fast_normal_cdf(down) - fast_normal_cdf(up);
+  double* share = shares_.data();  // a column for each answer
+  for (const Given& given : given_)
+    for (const IndecisionParameters& at : own) {
+      const double felt = at.sensitivity * given.level + at.bias;
+      const double up = felt - at.indecision, down = felt + at.indecision;
+      if (given.answer != none_answer)
+        *share++ = cdf(given.answer == comparison_answer ? up : -down);
+      else
+        *share++ = up > 0 ? cdf(-up) - cdf(-down) : cdf(down) - cdf(up);
     }
-  }
 }
 
-PersonIntegral::AtNodes PersonIntegral::at_nodes(double lapse) const {
+PersonIntegral::AtNodes PersonIntegral::at_nodes(double lapse, bool with_derivatives) const {
   constexpr double least_share = 1e-30;
   constexpr int trials_at_once = 10;  // a product of so many does not underflow
   const Eigen::Index n_nodes = shares_.rows();
@@ -301,9 +306,11 @@ PersonIntegral::AtNodes PersonIntegral::at_nodes(double lapse) const {
   for (Eigen::Index i = 0; const Given& given : given_) {
     const auto share = shares_.col(i++);
     p = (lapse / 3 + (1 - lapse) * share).max(least_share);
-    slope = (1.0 / 3 - share) / p;
-    sum.slope += given.n * slope;
-    sum.bend -= given.n * slope.square();
+    if (with_derivatives) {
+      slope = (1.0 / 3 - share) / p;
+      sum.slope += given.n * slope;
+      sum.bend -= given.n * slope.square();
+    }
     for (double n = given.n; n > 0; n -= 1) {
       product *= p;
       if (++n_in_product < trials_at_once) continue;
@@ -318,7 +325,7 @@ PersonIntegral::AtNodes PersonIntegral::at_nodes(double lapse) const {
 
 double PersonIntegral::log_likelihood(const Parameters& population, Derivatives* derivatives) {
   const Distribution people(population);
-  const AtNodes given = at_nodes(population[shared_lapse]);
+  const AtNodes given = at_nodes(population[shared_lapse], derivatives != nullptr);
   const Eigen::ArrayX3d z = people.standardized(effects_);
   Eigen::ArrayXd weights = log_weights_ + given.value + people.log_density(z);
   const double most = weights.maxCoeff();

@@ -51,7 +51,7 @@ class PersonIntegral {
     Eigen::ArrayXd value, slope, bend;
   };
 
-  AtNodes at_nodes(double lapse) const;
+  AtNodes at_nodes(double lapse, bool with_derivatives) const;
   void find_mode(const Parameters& population);
   void put_nodes(const Parameters& population);
   void put_shares();

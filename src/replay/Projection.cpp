@@ -111,10 +111,7 @@ void take(std::map<std::string, RowText>& rows, const RowText& row) {
 
 void put(Projection& projection, const Changes& changes, int& n_answers) {
   if (changes.setup) put(projection, *changes.setup, projection.n_events + 1);
-  if (changes.trial) {
-    put(projection.rows, text_of(*changes.trial));
-    projection.attempts[changes.trial->attempt_index].row = *changes.trial;
-  }
+  if (changes.trial) projection.attempts[changes.trial->attempt_index].row = *changes.trial;
   for (const CubeRow& row : changes.cubes) put(projection.rows, text_of(row));
   for (const AnswerRow& row : changes.answers) put(projection.rows, text_of(row, ++n_answers));
   for (const ReversalRow& row : changes.withdrawn_reversals) take(projection.rows, text_of(row));
@@ -125,24 +122,20 @@ void put(Projection& projection, const Changes& changes, int& n_answers) {
   if (changes.state) projection.state = *changes.state;
 }
 
-}  // namespace
-
-Projection fold_session(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed,
-                        const std::vector<LoggedEvent>& events) {
-  Projection projection;
-  Engine engine(std::move(plan), seed);
+// Up to the first event that is not possible.
+void fold(Projection& projection, Engine& engine, const std::vector<LoggedEvent>& events) {
   int n_answers = 0;
   for (const LoggedEvent& logged : events) {
     const Admission admission = engine.admit(logged.event);
     if (!admission.admitted) {
       projection.refused = {logged, admission.refusal};
-      return projection;
+      return;
     }
     const Changes changes = *engine.apply(*admission.admitted).changes;
     if (changes.attempt_index != logged.attempt_index) {
       projection.refused = {logged, fmt::format("it is logged with attempt {}, but belongs to {}",
                                                 logged.attempt_index, changes.attempt_index)};
-      return projection;
+      return;
     }
     put(projection, changes, n_answers);
     if (changes.attempt_index > 0) {
@@ -156,6 +149,17 @@ Projection fold_session(std::shared_ptr<const SessionPlan> plan, std::uint64_t s
     ++projection.n_events;
     projection.last_s = logged.event.t_s;
   }
+}
+}  // namespace
+
+Projection fold_session(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed,
+                        const std::vector<LoggedEvent>& events) {
+  Projection projection;
+  Engine engine(std::move(plan), seed);
+  fold(projection, engine, events);
+  // Most events change the row of their attempt: only the last is put into words.
+  for (const auto& [index, attempt] : projection.attempts)
+    if (attempt.row.attempt_index == index) put(projection.rows, text_of(attempt.row));
   return projection;
 }
 

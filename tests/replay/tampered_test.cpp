@@ -163,6 +163,22 @@ TEST_F(TamperedReplay, RunOptionsChangeNothingButTheDigest) {
   EXPECT_THAT(divergence(), HasSubstr("header"));
 }
 
+TEST_F(TamperedReplay, OfManySessionsTheFirstIsNamed) {
+  constexpr int n_sessions = 24;  // several threads verify so many
+  SessionArchive archive(file);
+  for (int i = 0; i < n_sessions; ++i) archive.store(session());
+  double done = 0;
+  const auto fault = [&] {
+    return fault_of_log(LogReader(file), file, {}, [&](double part) { done = part; });
+  };
+  EXPECT_EQ(fault(), std::nullopt);
+  EXPECT_EQ(done, 1);
+  ASSERT_EQ(change("UPDATE event SET t_s = t_s + 1e-9 WHERE session_id IN (7, 11, 23) AND "
+                   "event_id IN (SELECT max(event_id) FROM event GROUP BY session_id)"),
+            3);
+  EXPECT_THAT(fault().value_or(""), HasSubstr("session 7, at"));
+}
+
 class EveryColumn : public TamperedReplay {
  protected:
   std::vector<std::string> list(const std::string& sql) const {
