@@ -1,6 +1,7 @@
 // People of whom everything is known, in comparisons as the protocols run them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -16,11 +17,21 @@ struct Chooser {
   double sensitivity_per_g = 0;  ///< 0: sees nothing
   double indecision = 1, side_bias = 0;
   bool is_coin = false;  ///< always says that there is a difference
+  double lapse_rate = 0.02;
+  /// The indecision at the end of the comparisons, over that at their start.
+  double growth = 1;
+
+  /// @param part of the comparisons that are done, 0...1
+  Chooser at(double part) const {
+    Chooser now = *this;
+    now.indecision *= std::pow(growth, part - 0.5);
+    return now;
+  }
 
   /// 0: left, 1: none, 2: right
   int answer(double right_minus_left_g, RandomStream& stream) const {
     if (is_coin) return stream.coin(0.5) ? 0 : 2;
-    if (stream.coin(0.02)) return static_cast<int>(stream.below(3));
+    if (stream.coin(lapse_rate)) return static_cast<int>(stream.below(3));
     const double felt = sensitivity_per_g * right_minus_left_g + side_bias + stream.normal();
     return felt > indecision ? 2 : felt < -indecision ? 0 : 1;
   }
@@ -31,10 +42,20 @@ struct Population {
   double threshold_75_g = 0, spread = 0.3, indecision = 1;
   bool is_coin = false;
 
+  double lapse_rate = 0.02;
+  double correlation = 0;  ///< of the logarithms of sensitivity and indecision
+  double growth = 1;       ///< see Chooser
+
   Chooser draw(RandomStream& stream) const {
     const double median = threshold_75_g > 0 ? 0.6744897501960817 / threshold_75_g : 0;
-    return {median * std::exp(spread * stream.normal()),
-            indecision * std::exp(0.4 * stream.normal()), 0.2 * stream.normal(), is_coin};
+    const double of_s = stream.normal(), own = stream.normal(), of_bias = stream.normal();
+    const double of_tau = correlation * of_s + std::sqrt(1 - correlation * correlation) * own;
+    return {median * std::exp(spread * of_s),
+            indecision * std::exp(0.4 * of_tau),
+            0.2 * of_bias,
+            is_coin,
+            lapse_rate,
+            growth};
   }
 };
 
@@ -83,7 +104,8 @@ inline void compare(SessionData& data, const Chooser& chooser, const ComparisonD
     data.staircases[name] = {std::make_shared<const Procedure>(name, config),
                              design.only_right_choices};
   }
-  for (;;) {
+  constexpr double usual_trials = 40;
+  for (int n_trials = 0;;) {
     std::vector<std::size_t> open;
     for (std::size_t i = 0; i < staircases.size(); ++i)
       if (!staircases[i].finished()) open.push_back(i);
@@ -92,7 +114,8 @@ inline void compare(SessionData& data, const Chooser& chooser, const ComparisonD
     const std::size_t index = open[stream.below(open.size())];
     const double level_g = is_catch ? 0 : staircases[index].level();
     const int reference_slot = stream.coin(0.5) ? 1 : 2;
-    const int answer = chooser.answer(reference_slot == 1 ? level_g : -level_g, stream);
+    const Chooser now = chooser.at(std::min(1.0, n_trials++ / usual_trials));
+    const int answer = now.answer(reference_slot == 1 ? level_g : -level_g, stream);
     const std::string name = name_of(index);
     Attempt& attempt = add_comparison(data, is_catch ? "" : name, design.reference_g, level_g);
     attempt.trial.plan.is_catch = is_catch;
@@ -111,6 +134,22 @@ inline void compare(SessionData& data, const Chooser& chooser, const ComparisonD
     if (!update.finish) continue;
     data.estimates.push_back(row_of(name, staircases[index].estimates().at(0), *update.finish));
   }
+}
+
+/// @param people who were drawn
+inline std::vector<SessionData> study(int n_people, const Population& population,
+                                      const std::vector<ComparisonDesign>& designs,
+                                      RandomStream& stream,
+                                      std::vector<Chooser>* people = nullptr) {
+  std::vector<SessionData> sessions;
+  for (int i = 0; i < n_people; ++i) {
+    sessions.push_back(session(i + 1, std::to_string(100 + i)));
+    const Chooser chooser = population.draw(stream);
+    if (people) people->push_back(chooser);
+    for (const ComparisonDesign& design : designs)
+      compare(sessions.back(), chooser, design, stream);
+  }
+  return sessions;
 }
 
 }  // namespace heft::made_up

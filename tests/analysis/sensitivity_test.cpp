@@ -21,53 +21,6 @@ using namespace made_up;
 using testing::HasSubstr;
 using testing::Not;
 
-std::vector<SessionData> study(int n_people, const Population& population,
-                               const std::vector<ComparisonDesign>& designs, RandomStream& stream,
-                               std::vector<Chooser>* people = nullptr) {
-  std::vector<SessionData> sessions;
-  for (int i = 0; i < n_people; ++i) {
-    sessions.push_back(session(i + 1, std::to_string(100 + i)));
-    const Chooser chooser = population.draw(stream);
-    if (people) people->push_back(chooser);
-    for (const ComparisonDesign& design : designs)
-      compare(sessions.back(), chooser, design, stream);
-  }
-  return sessions;
-}
-
-std::optional<Interval> interval_of(const std::optional<MixedFigure>& figure) {
-  return figure ? std::optional(Interval{figure->low.value_or(0), figure->high.value_or(1e9)})
-                : std::nullopt;
-}
-
-struct FitCoverage {
-  Coverage threshold, indecision, own;  ///< own: each person's sensitivity
-};
-
-FitCoverage fit_coverage(int n_people, const Population& population, const ComparisonDesign& design,
-                         int studies) {
-  RandomStream stream(17, "thresholds", static_cast<std::uint64_t>(n_people));
-  FitCoverage found;
-  for (int i = 0; i < studies; ++i) {
-    std::vector<Chooser> people;
-    const auto rows = sensitivities_of(study(n_people, population, {design}, stream, &people));
-    for (std::size_t k = 0; k < people.size(); ++k) {
-      const OwnSensitivity& own = rows.at(0).fit.people.at(std::to_string(100 + k));
-      found.own.add(Interval{own.low.value_or(-1e9), own.high.value_or(1e9)},
-                    people[k].sensitivity_per_g);
-    }
-    found.threshold.add(interval_of(rows.at(0).fit.threshold_75_g), population.threshold_75_g);
-    found.indecision.add(interval_of(rows.at(0).fit.indecision), population.indecision);
-  }
-  return found;
-}
-
-void expect_95(const Coverage& found, int studies) {
-  const double chance = by_chance_percent(studies);
-  EXPECT_GE(found.percent(), 93 - chance);
-  EXPECT_LE(found.percent(), 98 + chance);
-}
-
 TEST(AnswersBySide, SignTheLevelByWhereTheHeavierStood) {
   SessionData data = session(1, "a");
   Attempt& on_left = add_comparison(data, "s", 200, 50);  // reference left: comparison right
@@ -197,30 +150,6 @@ TEST(ThresholdExponent, IsTheSlopeOfLogThresholdOnLogReference) {
   const ThresholdContrast slope =
       threshold_exponent(std::array{&light, &middle, &heavy}, std::array{100.0, 400.0, 1600.0});
   EXPECT_NEAR(slope.value, 0.5, 1e-12);
-}
-
-TEST(CoverageOf, Sensitivities) {
-  const int studies = n_studies(20);
-  for (const auto& [n_people, population, reference_g] :
-       {std::tuple{13, Population{150, 0}, 200.0}, std::tuple{13, Population{150}, 200.0},
-        std::tuple{13, Population{150, 0.3, 0.4}, 200.0}, std::tuple{13, Population{50}, 15.0},
-        std::tuple{13, Population{600}, 800.0}, std::tuple{40, Population{150}, 200.0},
-        std::tuple{13, Population{150, 0.3, 2}, 200.0},
-        std::tuple{40, Population{150, 0.3, 2}, 200.0}}) {
-    const auto [threshold, indecision, own] =
-        fit_coverage(n_people, population, recommended_at(reference_g), studies);
-    std::cout << n_people << " people, threshold " << population.threshold_75_g << " g, spread "
-              << population.spread << ": " << threshold.percent() << " % of "
-              << threshold.given_percent() << " % given; indecision " << population.indecision
-              << ": " << indecision.percent() << " %; of each person " << own.percent() << " %\n";
-    expect_95(threshold, studies);
-    expect_95(indecision, studies);
-    EXPECT_GE(threshold.given_percent(), 95);
-    EXPECT_EQ(indecision.given_percent(), 100);
-    // The criteria and the lapse rate of the population count as known: 91 to 94 % in many studies.
-    EXPECT_GE(own.percent(), 91 - by_chance_percent(own.n_given()));
-    EXPECT_LE(own.percent(), 98 + by_chance_percent(own.n_given()));
-  }
 }
 
 Interval ratio_interval(const MixedFit& first, const MixedFit& second) {

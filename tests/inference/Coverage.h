@@ -1,6 +1,8 @@
 // How often intervals hold what they should, over made-up studies.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -36,5 +38,11 @@ class Coverage {
  private:
   int n_studies_ = 0, n_given_ = 0, n_held_ = 0;
 };
+
+inline void expect_95(const Coverage& found, int studies) {
+  const double chance = by_chance_percent(studies);
+  EXPECT_GE(found.percent(), 93 - chance);
+  EXPECT_LE(found.percent(), 98 + chance);
+}
 
 }  // namespace heft
