@@ -71,7 +71,7 @@ TEST(FirstScreen, ShowsWhatDeservesAttention) {
   data.estimates.back().n_ceiling = 3;
   const std::vector<std::string> found = attention_sentences(summarize({"x.db", {data}}, ""));
   for (const char* part : {"One participant: intervals", "Not finished: session 1 (a, aborted)",
-                           "1 of 3 attempts were void and presented again: camera stalled (1).",
+                           "1 of 3 attempts was void and presented again: camera stalled (1).",
                            "Tracking was lost in 1 of 3 attempts, for 2.5 s in all.",
                            "2 of 2 responses were anticipatory", "deviation (1)",
                            "1 of 1 finished staircases has a censored JND",

@@ -106,8 +106,8 @@ std::string void_sentence(const Summary& summary) {
   std::vector<std::string> reasons;
   for (const StudyEstimate* one : estimates_of(summary.estimates, "void_attempts"))
     reasons.push_back(fmt::format("{} ({:.0f})", one->text_at("reason"), *one->value));
-  return fmt::format("{} of {} attempts were void and presented again: {}.", n_void, n_attempts,
-                     some_of(reasons, 3));
+  return fmt::format("{} of {} attempts {} void and presented again: {}.", n_void, n_attempts,
+                     n_void == 1 ? "was" : "were", some_of(reasons, 3));
 }
 
 std::string tracking_sentence(const Summary& summary) {
@@ -130,8 +130,8 @@ std::string anticipatory_sentence(const Summary& summary) {
     n_completed += row.n_completed;
   }
   if (n == 0) return "";
-  return fmt::format("{} of {} responses were anticipatory (too early, or without contact).", n,
-                     n_completed);
+  return fmt::format("{} of {} responses {} anticipatory (too early, or without contact).", n,
+                     n_completed, n == 1 ? "was" : "were");
 }
 
 std::string staircase_sentence(const Summary& summary) {

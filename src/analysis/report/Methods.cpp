@@ -168,6 +168,12 @@ std::string of_protocol(const Summary& summary, const RanProtocol& ran, Citation
                      counted(static_cast<int>(ran.participants.size()), "participant"), text);
 }
 
+// "no attempt was", "1 attempt was", "2 attempts were"
+std::string counted_were(int n, std::string_view what) {
+  if (n == 0) return fmt::format("no {} was", what);
+  return fmt::format("{} {}", counted(n, what), n == 1 ? "was" : "were");
+}
+
 std::string data(const Summary& summary) {
   std::map<Task, int, InTaskOrder> by_task;
   int n_completed = 0, n_void = 0, n_anticipatory = 0;
@@ -179,10 +185,10 @@ std::string data(const Summary& summary) {
   }
   std::vector<std::string> counts;
   for (const auto& [task, n] : by_task) counts.push_back(fmt::format("{} {}", n, name_of(task)));
-  std::string text =
-      fmt::format("{} completed ({})", counted(n_completed, "trial"), listed(counts));
-  text += fmt::format("; {} void and presented again, and {} anticipatory.",
-                      counted(n_void, "attempt"), counted(n_anticipatory, "response"));
+  std::string text = fmt::format(
+      "{} completed ({}); {} void{}, and {} anticipatory.", counted(n_completed, "trial"),
+      listed(counts), counted_were(n_void, "attempt"), n_void > 0 ? " and presented again" : "",
+      counted_were(n_anticipatory, "response"));
   const auto& staircases = summary.shared->staircases.results();
   const auto n_censored = std::ranges::count_if(
       staircases, [](const StaircaseResult& one) { return !one.why.empty(); });

@@ -83,6 +83,24 @@ TEST(Methods, HaveThePapersNumbers) {
                     Not(Contains(StartsWith("Kaernbach"))), Not(Contains(StartsWith("Stevens")))));
 }
 
+TEST(Methods, CountWhatWasVoidAndAnticipatory) {
+  SessionData data = session_of("paper.toml", 1);
+  add_sortings(data, "C1", "incorrect", 5);
+  for (Attempt& attempt : data.attempts) {
+    attempt.trial.shown_s = attempt.trial.first_contact_s = 0;
+    attempt.trial.validated_s = 5;
+  }
+  const auto counts = [&] { return methods_of(summarize({"x.db", {data}}, "")).paragraphs.at(2); };
+  EXPECT_THAT(counts(), HasSubstr("5 trials completed (5 sorting); no attempt was void, and no "
+                                  "response was anticipatory."));
+  data.attempts[0].trial.status = TrialStatus::voided;
+  EXPECT_THAT(counts(), HasSubstr("1 attempt was void and presented again, and no response was"));
+  data.attempts[1].trial.status = TrialStatus::voided;
+  for (std::size_t i : {2, 3}) data.attempts[i].trial.validated_s = 0.1;
+  EXPECT_THAT(counts(), HasSubstr("2 attempts were void and presented again, and 2 responses were "
+                                  "anticipatory."));
+}
+
 TEST(Methods, HaveTheModelThatWasFitted) {
   const Summary summary = papers_study();
   const StudyEstimate* threshold = find_estimate(summary.estimates, "threshold_75");
