@@ -317,8 +317,7 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
   const FittedParameter& s = fit.parameters[sensitivity];
   if (fit.why.empty())
     fit.why = why_no_threshold({s.low, s.high, !s.value && s.low}, reach_of(answers));
-  fit.parameters.push_back(fit.identifiable() ? threshold(fit.parameters[sensitivity])
-                                              : FittedParameter{"threshold_75_g"});
+  fit.parameters.push_back(fit.identifiable() ? threshold(s) : FittedParameter{"threshold_75_g"});
   return fit;
 }
 
@@ -341,8 +340,7 @@ double log_likelihood_of_same(const AnswersByLevel& answers, double unit, double
     if (!derivatives) continue;
     const Eigen::Vector2d slope(x * (above - below), -above - below);
     const double bend = -up * above - down * below, mixed = x * (up * above - down * below);
-    Eigen::Matrix2d bends;
-    bends << x * x * bend, mixed, mixed, bend;
+    const Eigen::Matrix2d bends{{x * x * bend, mixed}, {mixed, bend}};
     gradient += (yes.slope - no.slope) * slope;
     hessian += (yes.bend + no.bend) * slope * slope.transpose() + (yes.slope - no.slope) * bends;
   }
@@ -353,11 +351,26 @@ double log_likelihood_of_same(const AnswersByLevel& answers, double unit, double
 // All levels with the same share of answers.
 double log_likelihood_without_sensitivity(const AnswersByLevel& answers, double lapse) {
   const auto n = totals(answers);
-  const double share =
-      std::clamp(n[different] / (n[same] + n[different]), lapse / 2, 1 - lapse / 2);
+  const double share = std::clamp(n[different] / trials_in(answers), lapse / 2, 1 - lapse / 2);
   return log_share(n[different], share).value + log_share(n[same], 1 - share).value;
 }
+
+LikelihoodFit maximize_same(const AnswersByLevel& answers, double unit, double lapse,
+                            bool with_intervals, const std::vector<Parameters>& starts) {
+  return maximize_likelihood(
+      [&](const Parameters& at, Derivatives* derivatives) {
+        return log_likelihood_of_same(answers, unit, lapse, at, derivatives);
+      },
+      {{0, infinity, with_intervals}, {0, infinity, with_intervals}}, {starts});
+}
 }  // namespace
+
+double refitted_same_different(const AnswersByLevel& answers, const Fit& near) {
+  const double unit = largest_level_of(answers);
+  const double s = *near.parameters[0].value, tau = *near.parameters[1].value;
+  const Parameters from(Eigen::Vector2d(s * unit, tau));
+  return maximize_same(answers, unit, *near.parameters[2].value, false, {from}).log_likelihood;
+}
 
 Fit fit_same_different(const AnswersByLevel& answers, double lapse) {
   Fit fit{{{"sensitivity"}, {"indecision"}, {"lapse", lapse, {}, {}, {}, true}, {"threshold_75_g"}},
@@ -370,11 +383,7 @@ Fit fit_same_different(const AnswersByLevel& answers, double lapse) {
   std::vector<Parameters> starts;
   for (const double steep : {0.5, 2.0, 6.0, 20.0})
     for (const double wide : {0.3, 1.0, 3.0}) starts.emplace_back(Eigen::Vector2d(steep, wide));
-  const LikelihoodFit found = maximize_likelihood(
-      [&](const Parameters& at, Derivatives* derivatives) {
-        return log_likelihood_of_same(answers, unit, lapse, at, derivatives);
-      },
-      {{0, infinity}, {0, infinity}}, {starts});
+  const LikelihoodFit found = maximize_same(answers, unit, lapse, true, starts);
   fit.log_likelihood = found.log_likelihood;
   for (std::size_t i = 0; i < 2; ++i)
     fit.parameters[i] =

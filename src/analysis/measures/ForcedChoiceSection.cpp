@@ -9,8 +9,6 @@
 #include "analysis/measures/Sensitivity.h"
 #include "analysis/measures/ShareByLevel.h"
 #include "analysis/report/Notes.h"
-#include "inference/checks/GoodnessOfFit.h"
-#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 
@@ -67,8 +65,7 @@ class ForcedChoiceSection final : public Section {
       const Compared compared{*plan.reference_g, plan.condition};
       const double level_g = *plan.level_g == 0 ? 0 : *plan.level_g;  // no -0
       people_[compared][data.participant()][level_g][comparison ? 1 : 0] += 1;
-      if (const std::string why = why_not_constant(data, plan); !why.empty())
-        not_constant_[{compared, data.participant()}] = why;
+      checks_.add(data, plan);
     }
   }
 
@@ -77,24 +74,19 @@ class ForcedChoiceSection final : public Section {
     for (const auto& [compared, people] : people_)
       for (const auto& [participant, answers] : people) {
         put_fit(all, compared, participant, answers);
-        put_goodness(all, compared, participant, answers);
+        checks_.put_own(all, own_estimate(threshold, compared, participant, answers));
       }
     for (StudyEstimate& one : own_exponents(all, threshold, exponent)) all.push_back(one);
     return all;
   }
 
   void put(Summary& summary) override {
-    for (const auto& [compared, people] : people_)
-      for (const auto& [participant, answers] : people)
-        goodness_[{compared, participant}] = summary.checks_models
-                                                 ? goodness_of(compared, participant, answers)
-                                                 : GoodnessOfFit{.why = "not checked"};
+    checks_.judge(people_, summary.checks_models);
     const Estimates own = of_participants(summary);
     for (const auto& people : together(own)) {
-      const Measure* measure = people.front()->measure;
-      if (measure == &fit_p)
-        summary.estimates.push_back(n_rejected(people));
-      else if (measure != &deviance)
+      if (checks_.is_own(*people.front()))
+        checks_.put_rejected(summary.estimates, people);
+      else
         summary.estimates.push_back(over_people(people));
     }
     for (const auto& [compared, people] : people_) shares.put(summary.estimates, compared, people);
@@ -122,9 +114,7 @@ class ForcedChoiceSection final : public Section {
     thresholds.columns.push_back(column(pse, Field::value, "pse_g", "PSE g"));
     add_interval(thresholds.columns, pse, "pse_low_g", "pse_high_g", 1);
     thresholds.columns.push_back(column(threshold, Field::why, "why", "no threshold: why"));
-    thresholds.columns.push_back(column(rejected, Field::n, "n_fits_judged", "fits judged"));
-    thresholds.columns.push_back(column(rejected, Field::value, "n_fits_rejected", "rejected", 0));
-    thresholds.columns.push_back(column(rejected, Field::why, "fits_why", "not judged: why"));
+    checks_.add_columns(thresholds.columns);
     EstimateTable people{
         "forced_choice_by_participant",
         "Each participant's 75 % threshold in forced choices",
@@ -140,9 +130,7 @@ class ForcedChoiceSection final : public Section {
         TablePlace::csv};
     people.participants = true;
     add_weber_fraction(people.columns, weber_fraction);
-    people.columns.push_back(column(deviance, Field::value, "deviance", "deviance", 2));
-    people.columns.push_back(column(fit_p, Field::value, "fit_p", "p of the fit", 3));
-    people.columns.push_back(column(fit_p, Field::why, "fit_why", "not judged: why"));
+    checks_.add_own_columns(people.columns);
     return {
         thresholds,
         exponent_table("forced_choice_exponents",
@@ -155,16 +143,6 @@ class ForcedChoiceSection final : public Section {
   std::vector<ChartSpec> charts() const override { return {shares.chart()}; }
 
  private:
-  // Empty: the difference was chosen beforehand, as that of a catch trial is.
-  static std::string why_not_constant(const SessionData& data, const TrialPlan& plan) {
-    if (plan.staircase.empty()) return "";
-    const auto found = data.staircases.find(plan.staircase);
-    if (found == data.staircases.end())
-      return "the procedure that chose the differences is unknown";
-    if (found->second.before->get_if<Constant>()) return "";
-    return "an adaptive procedure chose the differences by earlier answers";
-  }
-
   static StudyEstimate own_estimate(const Measure& measure, const Compared& compared,
                                     const std::string& participant, const AnswersByLevel& answers) {
     StudyEstimate own{&measure, "comparison", compared.condition, compared.reference_g};
@@ -192,43 +170,8 @@ class ForcedChoiceSection final : public Section {
     if (found.pse) put(pse, *found.pse);
   }
 
-  GoodnessOfFit goodness_of(const Compared& compared, const std::string& participant,
-                            const AnswersByLevel& answers) const {
-    const auto why = not_constant_.find({compared, participant});
-    return why == not_constant_.end() ? check_forced_choice(answers)
-                                      : GoodnessOfFit{.why = why->second};
-  }
-
-  void put_goodness(Estimates& all, const Compared& compared, const std::string& participant,
-                    const AnswersByLevel& answers) const {
-    const GoodnessOfFit& found = goodness_.at({compared, participant});
-    for (const auto& [measure, value] : {std::pair(&deviance, found.deviance), {&fit_p, found.p}}) {
-      StudyEstimate& own = all.emplace_back(own_estimate(*measure, compared, participant, answers));
-      own.value = value;
-      own.why = found.why;
-    }
-  }
-
-  // @param people their p
-  static StudyEstimate n_rejected(const std::vector<const StudyEstimate*>& people) {
-    StudyEstimate count = *people.front();
-    count.measure = &rejected;
-    count.participant.clear();
-    count.value.reset();
-    count.n = count.n_trials = 0;
-    for (const StudyEstimate* own : people) {
-      count.n_trials += own->n_trials;
-      if (!own->value) continue;
-      count.n += 1;
-      count.value = count.value.value_or(0) + (*own->value < 0.05 ? 1 : 0);
-    }
-    if (count.n > 0) count.why.clear();
-    return count;
-  }
-
   std::map<Compared, AnswersByPerson> people_;
-  std::map<std::pair<Compared, std::string>, std::string> not_constant_;  // and why
-  std::map<std::pair<Compared, std::string>, GoodnessOfFit> goodness_;    // it takes a while
+  CurveChecks checks_{{deviance, fit_p, rejected}, check_forced_choice};
 };
 }  // namespace
 

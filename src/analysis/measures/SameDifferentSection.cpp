@@ -34,6 +34,17 @@ constexpr Measure criterion{
     "same_different_criterion", "", "criterion",
     "half-width of what is answered by \"same\", in standard deviations of the perceived "
     "difference, from the same fit"};
+constexpr Measure deviance{
+    "same_different_deviance", "", "deviance",
+    "of the fit from the saturated model, with one free share for each difference, where "
+    "differences were constant stimuli"};
+constexpr Measure fit_p{
+    "same_different_fit_p", "", "p of the fit",
+    "share of 1000 simulated data sets of the same design, from the fitted curve and fitted again, "
+    "whose deviance is as large; small: the curve does not describe the answers"};
+constexpr Measure rejected{"same_different_fits_rejected", "", "fits rejected",
+                           "number of participants whose fit has p < .05, of those whose fit can "
+                           "be judged; about 5 % are expected if all curves are right"};
 constexpr Measure different{"same_different_different", "%", "\"different\"",
                             "share of same-different trials at a difference that were answered by "
                             "\"different\", over participants; at 0 g: false alarms"};
@@ -57,21 +68,30 @@ class SameDifferentSection final : public Section {
       const bool is_different = attempt.trial.outcome == "difference";
       people_[{*plan.reference_g, plan.condition}][data.participant()][level_g]
              [is_different ? 1 : 0] += 1;
+      checks_.add(data, plan);
     }
   }
 
   Estimates of_participants(const Summary&) const override {
     Estimates all;
     for (const auto& [compared, people] : people_)
-      for (const auto& [participant, answers] : people)
+      for (const auto& [participant, answers] : people) {
         put_own(all, compared, participant, answers);
+        checks_.put_own(all, own_estimate(threshold, compared, participant, answers));
+      }
     for (StudyEstimate& one : own_exponents(all, threshold, exponent)) all.push_back(one);
     return all;
   }
 
   void put(Summary& summary) override {
+    checks_.judge(people_, summary.checks_models);
     const Estimates own = of_participants(summary);
-    for (const auto& people : together(own)) summary.estimates.push_back(over_people(people));
+    for (const auto& people : together(own)) {
+      if (checks_.is_own(*people.front()))
+        checks_.put_rejected(summary.estimates, people);
+      else
+        summary.estimates.push_back(over_people(people));
+    }
     for (const auto& [compared, people] : people_) shares.put(summary.estimates, compared, people);
   }
 
@@ -88,7 +108,8 @@ class SameDifferentSection final : public Section {
          column(threshold, Field::n_trials, "n_trials", "trials"),
          column(threshold, Field::value, "threshold_75_g", "threshold g")},
         "differencing model fitted to each participant, with 2 % lapses; mean over participants "
-        "with Student's t interval, of one alone the fit's",
+        "with Student's t interval, of one alone the fit's. Fits judged: those of constant "
+        "stimuli; rejected: p < .05 of the deviance",
         TablePlace::results,
         "same_different[]"};
     add_interval(thresholds.columns, threshold, "low_g", "high_g", 1);
@@ -96,6 +117,7 @@ class SameDifferentSection final : public Section {
     thresholds.columns.push_back(column(criterion, Field::value, "criterion", "criterion SD", 2));
     add_interval(thresholds.columns, criterion, "criterion_low", "criterion_high", 2);
     thresholds.columns.push_back(column(threshold, Field::why, "why", "no threshold: why"));
+    checks_.add_columns(thresholds.columns);
     EstimateTable people{
         "same_different_by_participant",
         "Each participant's 75 % threshold in same-different comparisons",
@@ -111,6 +133,7 @@ class SameDifferentSection final : public Section {
         TablePlace::csv};
     people.participants = true;
     add_weber_fraction(people.columns, weber_fraction);
+    checks_.add_own_columns(people.columns);
     return {thresholds,
             exponent_table("same_different_exponents",
                            "Same-different comparisons: growth of thresholds with the reference",
@@ -125,16 +148,21 @@ class SameDifferentSection final : public Section {
   std::vector<ChartSpec> charts() const override { return {shares.chart()}; }
 
  private:
+  static StudyEstimate own_estimate(const Measure& measure, const Compared& compared,
+                                    const std::string& participant, const AnswersByLevel& answers) {
+    StudyEstimate own{&measure, "comparison", compared.condition, compared.reference_g};
+    own.participant = participant;
+    own.n = 1;
+    own.n_trials = static_cast<int>(trials_in(answers));
+    return own;
+  }
+
   static void put_own(Estimates& all, const Compared& compared, const std::string& participant,
                       const AnswersByLevel& answers) {
     const Fit fit = fit_same_different(answers, fixed_lapse);
     for (const auto& [measure, name] :
          {std::pair(&threshold, "threshold_75_g"), {&criterion, "indecision"}}) {
-      StudyEstimate& own = all.emplace_back(
-          StudyEstimate{measure, "comparison", compared.condition, compared.reference_g});
-      own.participant = participant;
-      own.n = 1;
-      own.n_trials = static_cast<int>(fit.n_trials);
+      StudyEstimate& own = all.emplace_back(own_estimate(*measure, compared, participant, answers));
       own.method = "profile likelihood";
       own.why = fit.why;
       if (fit.identifiable()) {
@@ -149,6 +177,7 @@ class SameDifferentSection final : public Section {
   }
 
   std::map<Compared, AnswersByPerson> people_;
+  CurveChecks checks_{{deviance, fit_p, rejected}, check_same_different};
 };
 }  // namespace
 

@@ -1,5 +1,5 @@
-// How often comparisons were answered in one of two ways, by the difference in mass: the estimates,
-// their table and their chart.
+// Comparisons answered in one of two ways: how often in one of them, by the difference in mass,
+// with table and chart; and how well the fitted curves describe that.
 #pragma once
 
 #include <map>
@@ -12,6 +12,8 @@
 
 #include "analysis/measures/Section.h"
 #include "inference/Fit.h"
+#include "inference/checks/GoodnessOfFit.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 
@@ -83,6 +85,106 @@ inline ChartSpec ShareByLevel::chart() const {
           .x_label = "difference (g)",
           .y_label = "% of trials",
           .axes = "set yrange [0:100]\n"};
+}
+
+/// The goodness of each participant's fit, where the differences were constant stimuli.
+class CurveChecks {
+ public:
+  struct Measures {
+    const Measure &deviance, &p, &rejected;
+  };
+  CurveChecks(const Measures& measures, GoodnessOfFit (*check)(const AnswersByLevel&))
+      : measures_(measures), check_(check) {}
+
+  /// Notes how the difference of a trial was chosen.
+  void add(const SessionData& data, const TrialPlan& plan);
+  /// Takes a while.
+  void judge(const std::map<Compared, AnswersByPerson>& people, bool checks_models);
+
+  /// Deviance and p of one participant's fit. @param own without measure and value
+  void put_own(Estimates& all, StudyEstimate own) const;
+  bool is_own(const StudyEstimate& one) const {
+    return one.measure == &measures_.deviance || one.measure == &measures_.p;
+  }
+  /// How many fits are rejected; of deviances none, because they have no mean.
+  void put_rejected(Estimates& all, const std::vector<const StudyEstimate*>& people) const;
+
+  void add_columns(std::vector<EstimateColumn>& columns) const;
+  void add_own_columns(std::vector<EstimateColumn>& columns) const;
+
+ private:
+  using Person = std::pair<Compared, std::string>;
+
+  Measures measures_;
+  GoodnessOfFit (*check_)(const AnswersByLevel&);
+  std::map<Person, std::string> not_constant_;  // and why
+  std::map<Person, GoodnessOfFit> found_;
+};
+
+// Empty: the difference was chosen beforehand, as that of a catch trial is.
+inline std::string why_not_constant(const SessionData& data, const TrialPlan& plan) {
+  if (plan.staircase.empty()) return "";
+  const auto found = data.staircases.find(plan.staircase);
+  if (found == data.staircases.end()) return "the procedure that chose the differences is unknown";
+  if (found->second.before->get_if<Constant>()) return "";
+  return "an adaptive procedure chose the differences by earlier answers";
+}
+
+inline void CurveChecks::add(const SessionData& data, const TrialPlan& plan) {
+  if (const std::string why = why_not_constant(data, plan); !why.empty())
+    not_constant_[{{*plan.reference_g, plan.condition}, data.participant()}] = why;
+}
+
+inline void CurveChecks::judge(const std::map<Compared, AnswersByPerson>& all, bool checks_models) {
+  for (const auto& [compared, people] : all)
+    for (const auto& [participant, answers] : people) {
+      const auto why = not_constant_.find({compared, participant});
+      found_[{compared, participant}] = !checks_models ? GoodnessOfFit{.why = "not checked"}
+                                        : why != not_constant_.end()
+                                            ? GoodnessOfFit{.why = why->second}
+                                            : check_(answers);
+    }
+}
+
+inline void CurveChecks::put_own(Estimates& all, StudyEstimate own) const {
+  const GoodnessOfFit& found = found_.at({{*own.reference_g, own.condition}, own.participant});
+  own.why = found.why;
+  for (const auto& [measure, value] :
+       {std::pair(&measures_.deviance, found.deviance), {&measures_.p, found.p}}) {
+    own.measure = measure;
+    own.value = value;
+    all.push_back(own);
+  }
+}
+
+inline void CurveChecks::put_rejected(Estimates& all,
+                                      const std::vector<const StudyEstimate*>& people) const {
+  if (people.front()->measure != &measures_.p) return;
+  StudyEstimate count = *people.front();
+  count.measure = &measures_.rejected;
+  count.participant.clear();
+  count.value.reset();
+  count.n = count.n_trials = 0;
+  for (const StudyEstimate* own : people) {
+    count.n_trials += own->n_trials;
+    if (!own->value) continue;
+    count.n += 1;
+    count.value = count.value.value_or(0) + (*own->value < 0.05 ? 1 : 0);
+  }
+  if (count.n > 0) count.why.clear();
+  all.push_back(count);
+}
+
+inline void CurveChecks::add_columns(std::vector<EstimateColumn>& columns) const {
+  columns.push_back(column(measures_.rejected, Field::n, "n_fits_judged", "fits judged"));
+  columns.push_back(column(measures_.rejected, Field::value, "n_fits_rejected", "rejected", 0));
+  columns.push_back(column(measures_.rejected, Field::why, "fits_why", "not judged: why"));
+}
+
+inline void CurveChecks::add_own_columns(std::vector<EstimateColumn>& columns) const {
+  columns.push_back(column(measures_.deviance, Field::value, "deviance", "deviance", 2));
+  columns.push_back(column(measures_.p, Field::value, "fit_p", "p of the fit", 3));
+  columns.push_back(column(measures_.p, Field::why, "fit_why", "not judged: why"));
 }
 
 }  // namespace heft

@@ -126,4 +126,21 @@ GoodnessOfFit check_forced_choice(const AnswersByLevel& answers) {
   return check_psychometric(answers, options, fit_psychometric(answers, options));
 }
 
+GoodnessOfFit check_same_different(const AnswersByLevel& answers) {
+  AnswersByLevel either_sign;
+  for (const auto& [level, n] : answers)
+    for (std::size_t k = 0; k < n.size(); ++k) either_sign[std::abs(level)][k] += n[k];
+  const Fit fit = fit_same_different(either_sign, fixed_lapse);
+  const auto value = [&](const char* name) { return fit.parameter(name).value.value_or(0); };
+  const IndecisionParameters parameters{value("sensitivity"), value("indecision"), 0, 0};
+  return check(
+      either_sign, fit, 2,
+      [&](double level) {
+        const double none = indecision_shares(parameters, level).none;
+        const double same = fixed_lapse / 2 + (1 - fixed_lapse) * none;
+        return Shares{same, 1 - same, 0};
+      },
+      [&](const AnswersByLevel& simulated) { return refitted_same_different(simulated, fit); });
+}
+
 }  // namespace heft

@@ -38,6 +38,8 @@ GoodnessOfFit check_indecision(const AnswersByLevel& answers, const FitOptions& 
                                const Fit& fit);
 /// Of fit_forced_choice.
 GoodnessOfFit check_forced_choice(const AnswersByLevel& answers);
+/// Of fit_same_different with fixed_lapse. Levels of either sign are one, as that fit has them.
+GoodnessOfFit check_same_different(const AnswersByLevel& answers);
 
 // How likely other answers at a fit's levels are once they are fitted, too: a search that begins at
 // the first fit, without intervals and reasons.
@@ -49,6 +51,9 @@ double refitted_psychometric(const AnswersByLevel& answers, const FitOptions& op
 /// As fit_indecision; in IndecisionFit.cpp. @param near identifiable, with these options
 double refitted_indecision(const AnswersByLevel& answers, const FitOptions& options,
                            const Fit& near);
+
+/// As fit_same_different; in IndecisionFit.cpp. @param near identifiable
+double refitted_same_different(const AnswersByLevel& answers, const Fit& near);
 
 /// What fit_forced_choice fits with.
 FitOptions forced_choice_options(const AnswersByLevel& answers);

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 
 #include <map>
+#include <memory>
 
 #include "analysis/Figures.h"
 #include "analysis/MadeUpSessions.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 namespace {
@@ -44,6 +46,32 @@ TEST(SameDifferent, AnswersGiveThresholdAndCriterionOfDifferencesOfEitherSign) {
   EXPECT_EQ(*figure(summary, "same_different_different", {{"level_g", "0"}}).value, 25)
       << "false alarms";
   EXPECT_THAT(readable(summary), testing::HasSubstr("Same-different: the 75 % threshold is 51 g"));
+}
+
+// The goodness itself is tested in tests/inference.
+TEST(SameDifferent, FitsOfConstantStimuliAreJudged) {
+  ConstantConfig config;
+  config.levels = {0, 60, 120, 180, 240};
+  config.n_per_level = 40;
+  SessionData constant = judge(1, "constant", sensitive);
+  SessionData lapsing =
+      judge(2, "lapsing",
+            {{0, {36, 4}}, {60, {24, 16}}, {120, {12, 28}}, {180, {10, 30}}, {240, {9, 31}}});
+  for (SessionData* data : {&constant, &lapsing})
+    data->staircases["constant"] = {std::make_shared<const Procedure>("constant", config)};
+  const SessionData unknown = judge(3, "unknown", sensitive);
+  const Summary summary = summarized({constant, lapsing, unknown});
+  const auto p_of = [&](const char* participant) {
+    return figure(summary, "same_different_fit_p", {{"participant", participant}});
+  };
+  EXPECT_GT(*p_of("constant").value, 0.05);
+  EXPECT_LT(*p_of("lapsing").value, 0.05);
+  EXPECT_EQ(p_of("unknown").why, "the procedure that chose the differences is unknown");
+  EXPECT_NEAR(*figure(summary, "same_different_deviance", {{"participant", "constant"}}).value,
+              0.1516150, 1e-6);
+  const StudyEstimate rejected = figure(summary, "same_different_fits_rejected");
+  EXPECT_EQ(rejected.value, 1);
+  EXPECT_EQ(rejected.n, 2);
 }
 
 TEST(SameDifferent, OfACoinHasNoThresholdButAReason) {

@@ -59,6 +59,28 @@ TEST(GoodnessOfFit, OfThreeAnswersCountsTwoSharesAtEachLevel) {
   EXPECT_NEAR(*found.p, 0.661, 0.06);
 }
 
+// SciPy: minimize() of the likelihood with 2 % lapses, 4000 data sets and 2000.
+TEST(GoodnessOfFit, OfSameAndDifferentIsThatOfTheDifferencingModel) {
+  const GoodnessOfFit right = check_same_different({{0, {30, 10, 0}},
+                                                    {60, {24, 16, 0}},
+                                                    {120, {14, 26, 0}},
+                                                    {180, {5, 35, 0}},
+                                                    {240, {1, 39, 0}}});
+  EXPECT_NEAR(*right.deviance, 0.151615037, 1e-6);
+  EXPECT_EQ(right.degrees_of_freedom, 3);
+  EXPECT_NEAR(*right.p, 0.9875, 0.011);
+  const GoodnessOfFit wrong = check_same_different({{0, {36, 4, 0}},
+                                                    {-60, {10, 10, 0}},
+                                                    {60, {14, 6, 0}},
+                                                    {120, {12, 28, 0}},
+                                                    {180, {10, 30, 0}},
+                                                    {240, {9, 31, 0}}});
+  EXPECT_NEAR(*wrong.deviance, 15.6417017, 1e-6) << "differences of either sign are one level";
+  EXPECT_EQ(wrong.degrees_of_freedom, 3);
+  EXPECT_NEAR(*wrong.p, 0.003, 0.005);
+  EXPECT_FALSE(wrong.fits());
+}
+
 AnswersByLevel answers_of(int n_per_level, double lapse, std::uint64_t seed) {
   RandomStream stream(seed, "observer");
   AnswersByLevel answers;
@@ -92,6 +114,26 @@ TEST(CoverageOf, RejectedCurves) {
     EXPECT_GE(n_rejected, (fewest - chance) * n_judged) << name;
     EXPECT_LE(n_rejected, (most + chance) * n_judged) << name;
   }
+}
+
+TEST(CoverageOf, RejectedSameDifferentCurves) {
+  const int studies = n_studies(30);
+  int n_rejected = 0, n_judged = 0;
+  for (int i = 0; i < studies; ++i) {
+    RandomStream stream(static_cast<std::uint64_t>(i + 1), "same-different observer");
+    AnswersByLevel answers;
+    for (const double level : {0.0, 50.0, 100.0, 150.0, 200.0, 250.0})
+      for (int trial = 0; trial < 40; ++trial) {
+        const double same = 0.01 + 0.98 * indecision_shares({0.011, 1, 0, 0}, level).none;
+        answers[level][stream.coin(same) ? 0 : 1] += 1;
+      }
+    const GoodnessOfFit found = check_same_different(answers);
+    n_judged += found.p ? 1 : 0;
+    n_rejected += found.fits() ? 0 : 1;
+  }
+  std::cout << "right same-different curve: " << 100.0 * n_rejected / n_judged << " % rejected\n";
+  ASSERT_GT(n_judged, 0.9 * studies);
+  EXPECT_LE(n_rejected, (0.05 + 3 * std::sqrt(0.05 * 0.95 / n_judged)) * n_judged);
 }
 
 std::string why(const AnswersByLevel& answers) {
