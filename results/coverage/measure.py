@@ -22,6 +22,7 @@ FIGURES = [  # what a line says: kind, pattern
     ("log-normal mean", rf"^(?P<row>\d+ people, log SD .*): {NUMBER} %"),
     ("Tobit mean", rf"^(?P<row>\d+ people, ceiling .*): {NUMBER} %"),
     ("perceived mass", rf"^(?P<row>\d+ people, perceived mass .*?): {NUMBER} %"),
+    ("perceived mass contrast", rf"^(?P<row>\d+ people, perceived masses .*?): {NUMBER} %"),
     ("perceived distance", rf"^(?P<row>\d+ people, perceived mass .*?): .*lighter {NUMBER} %"),
     ("above - below", rf"^(?P<row>\d+ people, .*above - below .*): {NUMBER} % of"),
 ]

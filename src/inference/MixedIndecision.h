@@ -93,9 +93,9 @@ struct OwnThreshold {
 ///   these answers alone with a lapse rate of fixed_lapse
 OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* own);
 
-/// A weighted sum of the log thresholds of several fits, over the people in any of them: a
-/// difference, a slope. The variance is the infinitesimal jackknife's (Jaeckel 1972), so that what
-/// the same people have in common in several fits cancels.
+/// A weighted sum of the log thresholds of several fits (or of perceived masses: Thurstone.h), over
+/// the people in any of them: a difference, a slope. The variance is the infinitesimal jackknife's
+/// (Jaeckel 1972), so that what the same people have in common in several fits cancels.
 struct ThresholdContrast {
   double value = 0, standard_error = 0;
   int n = 0;                                                      ///< people

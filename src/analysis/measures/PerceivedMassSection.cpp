@@ -23,6 +23,14 @@ constexpr Measure distance{
     "perceived mass of a cube above that of the next lighter one of its condition, as "
     "perceived_mass"};
 
+constexpr Measure contrast{
+    "perceived_mass_contrast", "SD", "difference of perceived masses",
+    "perceived_mass of a cube in a condition less that in another one with the same lightest cube"};
+constexpr Measure smallest_contrast{
+    "smallest_perceived_mass_contrast", "SD", "smallest difference",
+    "smallest difference of perceived masses that 80 % of studies of this size and spread would "
+    "distinguish from 0"};
+
 // Completed trials of one condition.
 struct Sorted {
   std::map<double, int> n_answered;  // by mass; also of masses that were never sorted
@@ -53,7 +61,15 @@ class PerceivedMassSection final : public Section {
   }
 
   void put(Summary& summary) override {
-    for (const auto& [condition, sorted] : conditions_) put(summary.estimates, condition, sorted);
+    std::map<std::string, Perceived> perceived_in;
+    for (const auto& [condition, sorted] : conditions_) {
+      for (PerceivedStimulus& one : perceived_values(sorted.people))
+        perceived_in[condition].emplace(one.stimulus, std::move(one));
+      put(summary.estimates, condition, sorted, perceived_in[condition]);
+    }
+    for (auto one = perceived_in.begin(); one != perceived_in.end(); ++one)
+      for (auto other = perceived_in.begin(); other != one; ++other)
+        put_contrasts(summary.estimates, *other, *one);
     conditions_.clear();
   }
 
@@ -77,7 +93,19 @@ class PerceivedMassSection final : public Section {
         "98 % of answered trials. Maximum likelihood over all orders; intervals over participants.",
         TablePlace::results,
         "perceived_mass[]"};
-    return {table};
+    EstimateTable contrasts{
+        "perceived_mass_contrasts",
+        "Differences of perceived masses between conditions",
+        {key_column("condition", "condition"), key_column("other_condition", "less condition"),
+         key_column("mass_g", "mass g"), column(contrast, Field::n, "n", "n"),
+         column(contrast, Field::value, "difference", "difference", 2),
+         column(contrast, Field::low, "low", "95 % low", 2),
+         column(contrast, Field::high, "high", "high", 2),
+         column(smallest_contrast, Field::value, "smallest_difference", "detectable", 2)},
+        "of perceived masses above the same lightest cube, in SDs of a difference of two percepts; "
+        "participants are compared with themselves where they sorted in both. Detectable: the "
+        "smallest difference that 80 % of studies of this size and spread would find."};
+    return {table, contrasts};
   }
 
   std::vector<ChartSpec> charts() const override {
@@ -95,7 +123,36 @@ class PerceivedMassSection final : public Section {
   }
 
  private:
-  static void put(Estimates& all, const std::string& condition, const Sorted& sorted) {
+  using Perceived = std::map<double, PerceivedStimulus>;  // by mass
+
+  static void put_contrasts(Estimates& all, const std::pair<const std::string, Perceived>& from,
+                            const std::pair<const std::string, Perceived>& to) {
+    if (from.second.empty() || to.second.empty() ||
+        from.second.begin()->first != to.second.begin()->first)
+      return;
+    for (const auto& [mass_g, there] : to.second) {
+      const auto here = from.second.find(mass_g);
+      if (here == from.second.end() || here->second.from_lowest.influence.empty() ||
+          there.from_lowest.influence.empty())
+        continue;
+      const ThresholdContrast found =
+          perceived_contrast(here->second.from_lowest, there.from_lowest);
+      StudyEstimate one{&contrast, "sorting", to.first};
+      one.by = {{"other_condition", from.first}, at("mass_g", mass_g)};
+      one.n = found.n;
+      one.value = found.value;
+      one.set(found.interval());
+      one.method = "jackknife over participants";
+      all.push_back(one);
+      one.measure = &smallest_contrast;
+      one.value = found.smallest_effect();
+      one.low = one.high = std::nullopt;
+      all.push_back(one);
+    }
+  }
+
+  static void put(Estimates& all, const std::string& condition, const Sorted& sorted,
+                  const Perceived& stimuli) {
     const auto put_one = [&](const Measure& measure, double mass_g,
                              const PerceivedDistance& found) {
       StudyEstimate& one = all.emplace_back(StudyEstimate{&measure, "sorting", condition});
@@ -107,9 +164,6 @@ class PerceivedMassSection final : public Section {
       one.method = "maximum likelihood";
       one.why = found.why;
     };
-    std::map<double, PerceivedStimulus> stimuli;
-    for (PerceivedStimulus& one : perceived_values(sorted.people))
-      stimuli.emplace(one.stimulus, std::move(one));
     for (const auto& [mass_g, n] : sorted.n_answered) {
       const auto found = stimuli.find(mass_g);
       if (found == stimuli.end()) {

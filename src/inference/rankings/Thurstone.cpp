@@ -8,8 +8,6 @@
 #include <cmath>
 #include <set>
 
-#include "inference/MixedIndecision.h"
-
 namespace heft {
 
 namespace {
@@ -74,7 +72,7 @@ class Scale {
         n_by_order_[shown] += n;
         n_orders_ += n;
       }
-      if (!own.empty()) people_.push_back(std::move(own));
+      if (!own.empty()) people_.emplace(person, std::move(own));
     }
     if (n_by_order_.empty()) return;
     at_ = climb(Eigen::VectorXd::Zero(static_cast<Index>(stimuli_.size()) - 1), {});
@@ -93,13 +91,32 @@ class Scale {
     const double variance = along.dot(best_.information.ldlt().solve(along));
     double ratio = 1;
     if (n_people() > 1) {
-      const auto over_people = jackknife_variance(along);
-      if (!over_people) return std::nullopt;
-      ratio = std::max(*over_people / variance, least_ratio(static_cast<double>(n_people())));
+      const auto each = influences(low, high);
+      if (!each) return std::nullopt;
+      ratio = std::max(variance_of(*each) / variance, least_ratio(static_cast<double>(n_people())));
     }
     const double t = student_t_quantile((n_people() > 1 ? n : n_orders_) - 1);
     const double fall = t * std::sqrt(ratio);
     return Interval{end(along, -fall, variance), end(along, fall, variance)};
+  }
+
+  /// How the estimate changes without a person, to first order.
+  std::optional<std::map<std::string, double>> influences(double low, double high) const {
+    const Eigen::VectorXd along = direction(low, high);
+    std::map<std::string, double> changes;
+    double mean = 0;
+    for (const auto& [person, orders] : people_) {
+      Landscape own{0, Eigen::VectorXd::Zero(at_.size()),
+                    Eigen::MatrixXd::Zero(at_.size(), at_.size())};
+      for (const auto& [order, n] : orders) add(own, by_order_.at(order), n);
+      const auto others = (best_.information - own.information).eval().ldlt();
+      if (others.vectorD().minCoeff() < 1e-9 * best_.information.diagonal().maxCoeff())
+        return std::nullopt;
+      mean += (changes[person] = along.dot(others.solve(own.slope))) /
+              static_cast<double>(people_.size());
+    }
+    for (auto& [person, change] : changes) change -= mean;
+    return changes;
   }
 
  private:
@@ -164,21 +181,12 @@ class Scale {
     return from;
   }
 
-  // How an estimate changes without a person, to first order; over n - 1 as the jackknife has it.
-  std::optional<double> jackknife_variance(const Eigen::VectorXd& along) const {
-    std::vector<double> changes;
-    for (const auto& orders : people_) {
-      Landscape own{0, Eigen::VectorXd::Zero(at_.size()),
-                    Eigen::MatrixXd::Zero(at_.size(), at_.size())};
-      for (const auto& [order, n] : orders) add(own, by_order_.at(order), n);
-      const auto others = (best_.information - own.information).eval().ldlt();
-      if (others.vectorD().minCoeff() < 1e-9 * best_.information.diagonal().maxCoeff())
-        return std::nullopt;
-      changes.push_back(along.dot(others.solve(own.slope)));
-    }
-    const auto n = static_cast<double>(changes.size());
-    const double sd = *sample_sd(changes);
-    return sd * sd * (n - 1) * (n - 1) / n;
+  // The jackknife's.
+  static double variance_of(const std::map<std::string, double>& influences) {
+    double sum = 0;
+    for (const auto& [person, change] : influences) sum += change * change;
+    const auto n = static_cast<double>(influences.size());
+    return sum * (n - 1) / n;
   }
 
   // Where the signed root of the likelihood ratio is `fall`: nearly a line in the distance.
@@ -203,7 +211,7 @@ class Scale {
   }
 
   std::vector<double> stimuli_;
-  std::vector<std::map<RankOrder, int>> people_;
+  OrdersByPerson people_;
   std::map<RankOrder, int> n_by_order_;
   int n_orders_ = 0;
   Eigen::VectorXd at_;
@@ -244,10 +252,12 @@ PerceivedDistance distance_of(const Chains& chains, const Scale& scale, const Ra
   found.why = why_none(chains, low, high, found.n, scale);
   if (!found.why.empty()) return found;
   found.interval = scale.interval(low, high, found.n);
-  if (found.interval)
+  if (found.interval) {
     found.value = scale.distance(low, high);
-  else
+    if (found.n > 1) found.influence = *scale.influences(low, high);
+  } else {
     found.why = "one participant's orders alone link them";
+  }
   return found;
 }
 }  // namespace
@@ -285,6 +295,32 @@ std::vector<PerceivedStimulus> perceived_values(const OrdersByPerson& people) {
   else if (found.size() > 1)
     found.front().from_lowest.why = "no other has a distance to it";
   return found;
+}
+
+ThresholdContrast perceived_contrast(const PerceivedDistance& from, const PerceivedDistance& to) {
+  const auto standard_error = [](const PerceivedDistance& one) {
+    return (one.interval->high - one.interval->low) / 2 / student_t_quantile(one.n - 1);
+  };
+  ThresholdContrast contrast{*to.value - *from.value};
+  std::set<std::string> people;
+  double both = 0, of_from = 0, of_to = 0;
+  for (const auto& [person, change] : from.influence) {
+    of_from += change * change;
+    people.insert(person);
+  }
+  for (const auto& [person, change] : to.influence) {
+    of_to += change * change;
+    people.insert(person);
+    if (const auto other = from.influence.find(person); other != from.influence.end())
+      both += change * other->second;
+  }
+  constexpr double all_equal = 1e-12;
+  const bool have_correlation = std::min(of_from, of_to) > all_equal;
+  const double correlation = have_correlation ? both / std::sqrt(of_from * of_to) : 0;
+  const double a = standard_error(from), b = standard_error(to);
+  contrast.standard_error = std::sqrt(a * a + b * b - 2 * correlation * a * b);
+  contrast.n = static_cast<int>(people.size());
+  return contrast;
 }
 
 }  // namespace heft

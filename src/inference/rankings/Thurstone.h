@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "inference/MixedIndecision.h"
 #include "inference/Statistics.h"
 
 namespace heft {
@@ -35,6 +36,8 @@ struct PerceivedDistance {
   std::optional<Interval> interval{};
   int n = 0;          ///< people who ranked both, not always in one trial
   std::string why{};  ///< there is no value
+  /// How it changes without each person, to first order; of one person none.
+  std::map<std::string, double> influence{};
 };
 
 struct PerceivedStimulus {
@@ -48,6 +51,11 @@ struct PerceivedStimulus {
 /// others (Ford 1957).
 /// @return by stimulus, ascending
 std::vector<PerceivedStimulus> perceived_values(const OrdersByPerson& people);
+
+/// `to` less `from`, distances of several people in two conditions. The standard errors are those
+/// of their intervals (half-width by Student's t); people who ranked in both correlate them as
+/// their influences do.
+ThresholdContrast perceived_contrast(const PerceivedDistance& from, const PerceivedDistance& to);
 
 /// Of log P(X_1 < ... < X_n), by the values.
 struct RankingProbability {

@@ -47,6 +47,38 @@ TEST(PerceivedMass, IsTheNormalQuantileOfCorrectOrdersOfTwo) {
   EXPECT_EQ(figure(summary, "perceived_distance", {{"condition", "C2"}}).value, heavy.value);
 }
 
+// Six people, of whom each sorts two cubes ten times in C1 and in C2.
+StudyEstimate contrast_of(const std::vector<int>& n_right_in_c1,
+                          const std::vector<int>& n_right_in_c2) {
+  std::vector<SessionData> all;
+  for (int i = 0; i < 6; ++i) {
+    SessionData data = session(i + 1, fmt::format("P{}", i));
+    for (int k = 0; k < 10; ++k) {
+      sort_two(data, "C1", k < n_right_in_c1[static_cast<std::size_t>(i)]);
+      sort_two(data, "C2", k < n_right_in_c2[static_cast<std::size_t>(i)]);
+    }
+    all.push_back(data);
+  }
+  return figure(all, "perceived_mass_contrast",
+                {{"condition", "C2"}, {"other_condition", "C1"}, {"mass_g", "400"}});
+}
+
+TEST(PerceivedMass, InTwoConditionsIsComparedWithinPeople) {
+  const StudyEstimate same = contrast_of({5, 6, 7, 5, 6, 7}, {7, 8, 9, 7, 8, 9});
+  EXPECT_NEAR(*same.value, normal_quantile(0.8) - normal_quantile(0.6), 1e-5);
+  EXPECT_GT(*same.low, 0);
+  EXPECT_NEAR(*same.high - *same.value, *same.value - *same.low, 1e-9);
+  EXPECT_EQ(same.n, 6);
+  const StudyEstimate crossed = contrast_of({5, 6, 7, 5, 6, 7}, {9, 8, 7, 9, 8, 7});
+  EXPECT_NEAR(*crossed.value, *same.value, 1e-5);
+  EXPECT_GT(*crossed.high - *crossed.low, *same.high - *same.low);
+}
+
+TEST(PerceivedMass, InOneConditionHasNoContrast) {
+  EXPECT_FALSE(find_estimate(summarized(six_people()).estimates, "perceived_mass_contrast"))
+      << "in C1 no trial was answered";
+}
+
 TEST(PerceivedMass, OfNoAnswersIsNone) {
   const StudyEstimate none = figure(six_people(), "perceived_mass", {{"condition", "C1"}});
   EXPECT_FALSE(none.value);

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 
@@ -160,6 +161,21 @@ TEST(Thurstone, WithoutTheOnlyPersonWhoLinksThemThereIsNone) {
   EXPECT_FALSE(found[2].from_lowest.value);
 }
 
+std::map<RankOrder, int> sorted_by(double gain, int n_trials, const std::vector<double>& values,
+                                   RandomStream& stream) {
+  std::map<RankOrder, int> own;
+  for (int t = 0; t < n_trials; ++t) {
+    std::vector<std::pair<double, double>> percepts;
+    for (const double value : values)
+      percepts.emplace_back(gain * value + std::sqrt(0.5) * stream.normal(), value);
+    std::ranges::sort(percepts);
+    RankOrder order;
+    for (const auto& [percept, value] : percepts) order.push_back(value);
+    own[order] += 1;
+  }
+  return own;
+}
+
 // People whose sensitivities differ sort cubes several times.
 OrdersByPerson sorted(int n_people, int n_trials, const std::vector<double>& values, double spread,
                       std::uint64_t seed) {
@@ -167,16 +183,7 @@ OrdersByPerson sorted(int n_people, int n_trials, const std::vector<double>& val
   OrdersByPerson people;
   for (int i = 0; i < n_people; ++i) {
     const double gain = std::exp(spread * stream.normal());
-    auto& own = people[std::to_string(i)];
-    for (int t = 0; t < n_trials; ++t) {
-      std::vector<std::pair<double, double>> percepts;
-      for (const double value : values)
-        percepts.emplace_back(gain * value + std::sqrt(0.5) * stream.normal(), value);
-      std::ranges::sort(percepts);
-      RankOrder order;
-      for (const auto& [percept, value] : percepts) order.push_back(value);
-      own[order] += 1;
-    }
+    people[std::to_string(i)] = sorted_by(gain, n_trials, values, stream);
   }
   return people;
 }
@@ -205,6 +212,42 @@ TEST(CoverageOf, PerceivedMasses) {
                   << " for " << *truth.back().from_lowest.value << "\n";
         for (const Coverage& coverage : {lowest, previous})
           EXPECT_GE(coverage.percent(), 93 - by_chance_percent(coverage.n_given()));
+      }
+    }
+}
+
+// The heaviest cube above the lightest one in two conditions, in which the same people sort: in the
+// second it is perceived at `last` instead of 0.8.
+std::array<PerceivedDistance, 2> in_two_conditions(int n_people, int n_trials, double last,
+                                                   double spread, std::uint64_t seed) {
+  RandomStream stream(seed, "two conditions");
+  std::array<OrdersByPerson, 2> people;
+  for (int i = 0; i < n_people; ++i) {
+    const double gain = std::exp(spread * stream.normal());
+    for (std::size_t k = 0; k < people.size(); ++k)
+      people[k][std::to_string(i)] =
+          sorted_by(gain, n_trials, {0, 0.4, k == 0 ? 0.8 : last}, stream);
+  }
+  return {perceived_values(people[0]).back().from_lowest,
+          perceived_values(people[1]).back().from_lowest};
+}
+
+TEST(CoverageOf, PerceivedMassContrasts) {
+  const int studies = n_studies(20);
+  for (const double spread : {0.0, 0.6})
+    for (const double last : {0.8, 1.6}) {
+      const auto [first, second] = in_two_conditions(5000, 10, last, spread, 1);
+      const double truth = *second.value - *first.value;
+      for (const int n_people : {5, 13, 40}) {
+        Coverage found;
+        for (int i = 0; i < studies; ++i) {
+          const auto [from, to] =
+              in_two_conditions(n_people, 5, last, spread, static_cast<std::uint64_t>(2 + i));
+          if (from.value && to.value) found.add(perceived_contrast(from, to).interval(), truth);
+        }
+        std::cout << n_people << " people, perceived masses 0.8 and " << last << ", spread "
+                  << spread << ": " << found.percent() << " % of " << found.n_given() << "\n";
+        EXPECT_GE(found.percent(), 93 - by_chance_percent(found.n_given()));
       }
     }
 }
