@@ -1,5 +1,5 @@
-"""heft fit beside SciPy and R's ordinal::clm on fresh random data: the same figures, and how long
-each takes. Exits 77 where these are not installed (Debian: python3-scipy, r-cran-ordinal).
+"""heft fit beside SciPy and R's ordinal::clm and clmm on fresh random data: the same figures, and how
+long each takes. Exits 77 where these are not installed (Debian: python3-scipy, r-cran-ordinal).
 
 Run: python3 tests/cli/fit/fit_against_others.py PATH_TO_HEFT [SEED [DATASETS]]
 """
@@ -86,6 +86,25 @@ def indecision(folder, rng, n_datasets):
     return n_wrong
 
 
+def mixed(folder, rng):
+    """-> how many fits differ: clmm has normal sensitivities, no lapses and one criterion for all, so
+    that its sensitivity need only lie in the interval"""
+    n_wrong = 0
+    for n_people in (13, 40, 100):
+        make.write_peoples_choices(folder / "people.csv", rng, n_people)
+        found, ours_s = timed(lambda: fits(folder / "people.csv", "--model", "indecision",
+                                           "--person", "person"))
+        sensitivity = found[0]["parameters"]["sensitivity"]
+        (_, one_s), (theirs, two_s) = others.clmm_fits(folder / "people.csv")
+        is_wrong = not sensitivity["low"] <= theirs <= sensitivity["high"]
+        n_wrong += is_wrong
+        print(f"mixed, {n_people} people: {'differs' if is_wrong else 'agrees'}; processor time: heft "
+              f"{ours_s:.3f} s with intervals; clmm without them {one_s:.2f} s where sensitivities "
+              f"vary ({one_s / ours_s:.0f} times as long), {two_s:.2f} s where biases do, too "
+              f"({two_s / ours_s:.0f} times)")
+    return n_wrong
+
+
 if __name__ == "__main__":
     if importlib.util.find_spec("scipy") is None and sys.executable != DEBIANS:
         os.execv(DEBIANS, [DEBIANS, *sys.argv])  # another Python stands before it
@@ -106,4 +125,5 @@ if __name__ == "__main__":
     n_sets = int(sys.argv[3]) if len(sys.argv) > 3 else 10
     with tempfile.TemporaryDirectory() as name:
         sys.exit(min(1, psychometric(Path(name), generator, n_sets) +
-                     indecision(Path(name), generator, 10 * n_sets)))
+                     indecision(Path(name), generator, 10 * n_sets) +
+                     mixed(Path(name), generator)))

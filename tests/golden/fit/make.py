@@ -78,6 +78,19 @@ def write_choices(path, rng, n_datasets):
             n_written += 1
 
 
+def write_peoples_choices(path, rng, n_people):
+    """40 choices each of people whose sensitivities and biases differ."""
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["person", "level_g", "answer"])
+        for person in range(n_people):
+            shown = rng.choice([-450, -300, -150, -75, 0, 75, 150, 300, 450], 40)
+            sensitivity, bias = 0.0045 * numpy.exp(rng.normal(0, 0.3)), rng.normal(0, 0.2)
+            felt = sensitivity * shown + bias + rng.normal(size=40)
+            answers = numpy.where(felt > 1, "comparison", numpy.where(felt < -1, "reference", "none"))
+            writer.writerows([f"p{person}", x, answer] for x, answer in zip(shown, answers))
+
+
 def fitted(setting, data):
     parameters, log_likelihood, errors = others.scipy_fit(setting, data)
     names = ("threshold", "slope", "guess", "lapse")

@@ -222,3 +222,29 @@ def clm_fits(path):
     rows = csv.DictReader(done.stdout.splitlines())
     number = lambda text: None if text in ("NA", "NaN") else float(text)
     return {row.pop("dataset"): {name: number(text) for name, text in row.items()} for row in rows}
+
+
+MIXED_R_SCRIPT = r"""
+suppressMessages(library(ordinal))
+data <- read.csv(commandArgs(TRUE)[1], stringsAsFactors = TRUE)
+data$answer <- factor(data$answer, levels = c("reference", "none", "comparison"), ordered = TRUE)
+unit <- max(abs(data$level_g))
+data$x <- data$level_g / unit
+for (formula in c(answer ~ x + (0 + x | person), answer ~ x + (1 + x | person))) {
+  seconds <- sum(system.time(
+    fit <- clmm(formula, data = data, link = "probit", threshold = "symmetric")
+  )[c("user.self", "sys.self")])
+  cat(sprintf("%.15g,%.6g\n", fit$beta[["x"]] / unit, seconds))
+}
+"""
+
+
+def clmm_fits(path):
+    """Of a CSV with columns person, level_g, answer. -> sensitivity and processor time of a fit whose
+    sensitivity varies over people, and of one whose bias varies, too"""
+    with tempfile.NamedTemporaryFile("w", suffix=".R") as script:
+        script.write(MIXED_R_SCRIPT)
+        script.flush()
+        done = subprocess.run(["Rscript", script.name, os.fspath(path)], capture_output=True,
+                              text=True, check=True)
+    return [tuple(map(float, line.split(","))) for line in done.stdout.splitlines()]
