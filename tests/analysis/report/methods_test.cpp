@@ -96,7 +96,7 @@ TEST(Methods, CountWhatWasVoidAndAnticipatory) {
   data.attempts[0].trial.status = TrialStatus::voided;
   EXPECT_THAT(counts(), HasSubstr("1 attempt was void and presented again, and no response was"));
   data.attempts[1].trial.status = TrialStatus::voided;
-  for (std::size_t i : {2, 3}) data.attempts[i].trial.validated_s = 0.1;
+  for (const std::size_t i : {2UL, 3UL}) data.attempts[i].trial.validated_s = 0.1;
   EXPECT_THAT(counts(), HasSubstr("2 attempts were void and presented again, and 2 responses were "
                                   "anticipatory."));
 }
