@@ -68,19 +68,29 @@ struct ComparisonDesign {
   bool only_right_choices = true;  ///< move a staircase down
 };
 
-inline ComparisonDesign recommended_at(double reference_g) {
+inline ComparisonDesign paired_at(double reference_g) {
   if (reference_g < 100) return {reference_g, {175, 10}, 50};
   if (reference_g < 500) return {reference_g, {600, 20}, 150};
   return {reference_g, {700, 20}, 200};
 }
 
 inline ComparisonDesign papers_at(double reference_g) {
-  ComparisonDesign design = recommended_at(reference_g);
+  ComparisonDesign design = paired_at(reference_g);
   design.starts_g.pop_back();
   design.stop_reversals = 10;
   design.catch_fraction = 0;
   design.only_right_choices = false;
   return design;
+}
+
+/// Gives a planned comparison an answer of Chooser::answer.
+inline void answer(Attempt& attempt, int given) {
+  TrialRow& trial = attempt.trial;
+  trial.outcome = given == 1 ? "no_difference" : "difference";
+  if (given == 1) return;
+  trial.chosen_slot = given == 0 ? 1 : 2;
+  const bool names_comparison = *trial.chosen_slot != trial.plan.reference_slot;
+  trial.choice_correct = *trial.plan.level_g != 0 && names_comparison == (*trial.plan.level_g > 0);
 }
 
 /// Adds the trials and estimates of one person's comparisons at one reference.
@@ -115,21 +125,15 @@ inline void compare(SessionData& data, const Chooser& chooser, const ComparisonD
     const double level_g = is_catch ? 0 : staircases[index].level();
     const int reference_slot = stream.coin(0.5) ? 1 : 2;
     const Chooser now = chooser.at(std::min(1.0, n_trials++ / usual_trials));
-    const int answer = now.answer(reference_slot == 1 ? level_g : -level_g, stream);
+    const int given = now.answer(reference_slot == 1 ? level_g : -level_g, stream);
     const std::string name = name_of(index);
     Attempt& attempt = add_comparison(data, is_catch ? "" : name, design.reference_g, level_g);
     attempt.trial.plan.is_catch = is_catch;
     attempt.trial.plan.reference_slot = reference_slot;
-    const bool chosen = answer != 1;
-    const int slot = answer == 0 ? 1 : 2;
-    if (chosen) {
-      attempt.trial.outcome = "difference";
-      attempt.trial.chosen_slot = slot;
-      attempt.trial.choice_correct = level_g > 0 && slot != reference_slot;
-    }
+    answer(attempt, given);
     if (is_catch) continue;
     const bool right = attempt.trial.choice_correct.value_or(false);
-    const Update update = staircases[index].respond(design.only_right_choices ? right : chosen);
+    const Update update = staircases[index].respond(design.only_right_choices ? right : given != 1);
     attempt.is_reversal = update.reversal.has_value();
     if (!update.finish) continue;
     data.estimates.push_back(row_of(name, staircases[index].estimates().at(0), *update.finish));

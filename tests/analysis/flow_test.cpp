@@ -78,8 +78,8 @@ TEST(PersonThresholds, AreGivenWhereTheTrialsIdentifyThem) {
   RandomStream stream(3, "two people");
   std::vector<SessionData> sessions{session(1, "sees"), session(2, "sees nothing")};
   for (int i = 0; i < 6; ++i) {
-    compare(sessions[0], {0.6745 / 100}, recommended_at(200), stream);
-    compare(sessions[1], {0}, recommended_at(200), stream);
+    compare(sessions[0], {0.6745 / 100}, paired_at(200), stream);
+    compare(sessions[1], {0}, paired_at(200), stream);
   }
   const Summary summary = summarized(sessions);
   const auto of = [&](std::string_view measure, const char* participant,

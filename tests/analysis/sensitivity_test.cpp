@@ -42,7 +42,7 @@ TEST(Sensitivity, IsFoundWhateverTheCriterion) {
   RandomStream stream(5, "criteria");
   for (const double indecision : {0.3, 1.0, 2.5}) {
     const auto rows =
-        sensitivities_of(study(200, {150, 0.3, indecision}, {recommended_at(200)}, stream));
+        sensitivities_of(study(200, {150, 0.3, indecision}, {paired_at(200)}, stream));
     ASSERT_TRUE(rows.at(0).fit.identifiable()) << rows.at(0).fit.why;
     // 4 SE, and 5 % of bias where the criterion is far out
     EXPECT_NEAR(rows[0].fit.threshold_75_g->value, 150, indecision > 2 ? 20 : 12);
@@ -52,7 +52,7 @@ TEST(Sensitivity, IsFoundWhateverTheCriterion) {
 
 TEST(Sensitivity, OfFewPeopleIsNotPrinted) {
   RandomStream stream(6, "few");
-  const auto rows = sensitivities_of(study(3, {150}, {recommended_at(200)}, stream));
+  const auto rows = sensitivities_of(study(3, {150}, {paired_at(200)}, stream));
   EXPECT_FALSE(rows.at(0).fit.identifiable());
   EXPECT_FALSE(rows[0].fit.threshold_75_g.has_value());
   EXPECT_THAT(rows[0].fit.why, HasSubstr("3 participants are too few"));
@@ -61,7 +61,7 @@ TEST(Sensitivity, OfFewPeopleIsNotPrinted) {
 TEST(Sensitivity, OfOnePersonIsThatPersonsOwn) {
   RandomStream stream(7, "one");
   SessionData data = session(1, "a");
-  for (int i = 0; i < 6; ++i) compare(data, {0.6745 / 100}, recommended_at(200), stream);
+  for (int i = 0; i < 6; ++i) compare(data, {0.6745 / 100}, paired_at(200), stream);
   const auto rows = sensitivities_of({&data, 1});
   ASSERT_TRUE(rows.at(0).fit.identifiable()) << rows[0].fit.why;
   EXPECT_LT(*rows[0].fit.threshold_75_g->low, 100);
@@ -71,7 +71,7 @@ TEST(Sensitivity, OfOnePersonIsThatPersonsOwn) {
 // The model is drawn as what it predicts along the staircases, in the same bins.
 TEST(ChoiceCurves, HaveTheModelsPredictionBehindThem) {
   RandomStream stream(7, "bands");
-  std::vector<SessionData> people = study(8, {150}, {recommended_at(200)}, stream);
+  std::vector<SessionData> people = study(8, {150}, {paired_at(200)}, stream);
   const auto curves = [](const std::vector<SessionData>& sessions) {
     const Summary summary = summarize({"x.db", sessions}, "");
     for (const char* choice : {"heavier", "lighter", "none"}) {
@@ -172,8 +172,8 @@ TEST(CoverageOf, ThresholdRatios) {
           const Chooser light = Population{150, 0.3, indecision}.draw(stream);
           Chooser heavy = Population{600, 0.3, indecision}.draw(stream);
           if (same) heavy = {light.sensitivity_per_g / 4, light.indecision, light.side_bias};
-          compare(sessions.back(), light, recommended_at(200), stream);
-          compare(sessions.back(), heavy, recommended_at(800), stream);
+          compare(sessions.back(), light, paired_at(200), stream);
+          compare(sessions.back(), heavy, paired_at(800), stream);
         }
         const auto rows = sensitivities_of(sessions);
         if (rows.at(0).fit.identifiable() && rows.at(1).fit.identifiable())
@@ -195,10 +195,10 @@ TEST(Sensitivity, ARatioIsOfTheSamePeopleWhoeverIsMissing) {
     const Chooser one{0.0045 * std::exp(i % 2 == 0 ? 0.8 : -0.8), 1, 0};
     SessionData at_first = session(i + 1, std::to_string(100 + i));
     SessionData at_second = session(i + 1, std::to_string(200 + i));
-    for (int k = 0; k < 4; ++k) compare(at_first, one, recommended_at(200), stream);
+    for (int k = 0; k < 4; ++k) compare(at_first, one, paired_at(200), stream);
     SessionData at_both = at_first;
-    for (int k = 0; k < 4; ++k) compare(at_both, one, recommended_at(201), stream);
-    for (int k = 0; k < 4; ++k) compare(at_second, one, recommended_at(201), stream);
+    for (int k = 0; k < 4; ++k) compare(at_both, one, paired_at(201), stream);
+    for (int k = 0; k < 4; ++k) compare(at_second, one, paired_at(201), stream);
     all.push_back(at_both);
     missing.push_back(i == 0 ? at_first : at_both);
     strangers.insert(strangers.end(), {at_first, at_second});
@@ -225,7 +225,7 @@ TEST(CoverageOf, AboveMinusBelow) {
   for (const auto& [n_people, population, reference_g] :
        {std::tuple{13, Population{150}, 200.0}, std::tuple{40, Population{150}, 200.0},
         std::tuple{13, Population{50}, 15.0}}) {
-    const ComparisonDesign design = recommended_at(reference_g);
+    const ComparisonDesign design = paired_at(reference_g);
     const double truth = true_start_effect(population, design);
     RandomStream stream(31, "above and below", static_cast<std::uint64_t>(n_people));
     Coverage found;
@@ -251,7 +251,7 @@ Misled misled_by(const Population& population, bool papers, int n_people, int st
   for (int i = 0; i < studies; ++i) {
     std::vector<ComparisonDesign> designs;
     for (double reference_g : {15.0, 200.0, 800.0})
-      designs.push_back(papers ? papers_at(reference_g) : recommended_at(reference_g));
+      designs.push_back(papers ? papers_at(reference_g) : paired_at(reference_g));
     const Summary summary = summarize({"x.db", study(n_people, population, designs, stream)}, "");
     for (const StudyEstimate* one : estimates_of(summary.estimates, "threshold_75"))
       n_thresholds += one->value ? 1 : 0;
@@ -266,7 +266,7 @@ TEST(CoverageOf, NothingSeenGivesNoThreshold) {
       for (bool is_coin : {false, true}) {
         const Misled found = misled_by({.is_coin = is_coin}, papers, n_people, n_studies(2));
         std::cout << n_people << (is_coin ? " coins" : " people with only a criterion")
-                  << (papers ? ", paper.toml: " : ", recommended.toml: ")
+                  << (papers ? ", paper.toml: " : ", paired_staircases.toml: ")
                   << found.thresholds_percent << " % thresholds, " << found.supported_percent
                   << " % of studies with E2-H1 supported\n";
         EXPECT_LE(found.thresholds_percent, 5);
@@ -281,7 +281,7 @@ TEST(Hypotheses, AGoodObserverWhoseThresholdRisesIsToldSo) {
     sessions.push_back(session(i + 1, std::to_string(100 + i)));
     for (double reference_g : {15.0, 200.0, 800.0})
       compare(sessions.back(), Population{0.5 * reference_g + 20}.draw(stream),
-              recommended_at(reference_g), stream);
+              paired_at(reference_g), stream);
   }
   const Summary summary = summarize({"x.db", sessions}, "");
   EXPECT_EQ(summary.hypotheses[3].verdict, HypothesisVerdict::supported)

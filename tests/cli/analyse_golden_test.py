@@ -16,7 +16,7 @@ GOLDEN = ROOT / "tests" / "golden" / "analysis"
 # name: what is simulated, in this order, into one log
 STUDIES = {
     "paper": [("paper.toml", "simulated", 4, 20261123)],
-    "recommended": [("recommended.toml", "simulated", 3, 7), ("jnd.toml", "coin", 2, 3)],
+    "paired_staircases": [("examples/paired_staircases.toml", "simulated", 3, 7), ("jnd.toml", "coin", 2, 3)],
 }
 # What the program is and where it ran, and lists of single trials.
 NOT_FIGURES = {"command", "heft_version", "database", "files"}

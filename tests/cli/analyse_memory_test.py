@@ -11,7 +11,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-PROTOCOL = Path(__file__).resolve().parents[2] / "protocols" / "recommended.toml"
+PROTOCOL = Path(__file__).resolve().parents[2] / "protocols" / "examples" / "paired_staircases.toml"
 # A participant: 65 measured, about 33 of them the nodes over which the mixed model integrates, at one
 # reference at a time.
 MOST_KB = 72

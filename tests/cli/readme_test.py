@@ -47,6 +47,7 @@ NOT_RUN = [
     (r"^PYTHONPATH=build/python ", "tests/python/examples_test.py runs it"),
     (r"^build-fuzz/", "is built by clang"),
     (r"^python3 (results|tests)/", "takes minutes, and writes into results/"),
+    (r"^HEFT_STUDIES=", "takes minutes"),
 ]
 
 

@@ -162,8 +162,8 @@ TEST(Protocol, APairIsOneStaircaseFromAboveAndOneFromBelow) {
   EXPECT_EQ(block.catch_trials[0].trials, 4);
 }
 
-TEST(RecommendedProtocol, StartsEachReferenceFromAboveAndFromNearZero) {
-  const Protocol protocol = shipped("recommended");
+TEST(PairedStaircases, StartEachReferenceFromAboveAndFromNearZero) {
+  const Protocol protocol = shipped("examples/paired_staircases");
   const auto& comparison = *block_as<Comparison::Block>(protocol.blocks.back());
   EXPECT_EQ(comparison.catch_fraction, 0);
   std::map<double, int> catches;

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 
 const std::string protocols = source_folder() + "/protocols/";
 
-// A study of recommended.toml in a folder that does not exist.
+// A study of paper.toml in a folder that does not exist.
 std::string study(const std::string& more, const std::string& protocol = protocols + "paper.toml") {
   return "study = \"mass\"\nparticipants = 12\nseed = 3\nprotocol = \"" + protocol + "\"\n" + more;
 }

@@ -35,7 +35,7 @@ GroupScores total(const std::vector<JudgedTrial>& trials) {
 // Nothing is shared with the streams of the session, or the model would predict itself better than
 // it can.
 TEST(Judging, AModelsOwnLogsScoreAsItExpects) {
-  const Protocol protocol = shipped_protocol("recommended");
+  const Protocol protocol = shipped_protocol("examples/paired_staircases");
   std::vector<JudgedTrial> trials;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     StoredSession stored(protocol, "simulated", seed);

@@ -1,4 +1,4 @@
-"""Is mass told by anything but the technique? A study of simulated sessions of recommended.toml: for
+"""Is mass told by anything but the technique? A study of simulated sessions of paired_staircases.toml: for
 each cue that a participant could have before the answer (side, order, time until the cubes are
 there, cubes put back, jumps of clone and cubes from one displayed frame to the next), how well it
 alone tells the mass, against chance.
@@ -22,7 +22,7 @@ import tempfile
 from pathlib import Path
 from statistics import NormalDist
 
-PROTOCOL = Path(__file__).resolve().parents[2] / "protocols" / "recommended.toml"
+PROTOCOL = Path(__file__).resolve().parents[2] / "protocols" / "examples" / "paired_staircases.toml"
 ALPHA = 0.01
 JUMP_M = 0.05  # from one frame to the next; a hand at 0.5 m/s gets 33 mm far in a fifteenth of a second
 

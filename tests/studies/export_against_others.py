@@ -64,11 +64,11 @@ class Comparison:
         self.n_wrong = self.n_compared = 0
         db = folder / "lab.db"
         self.db = db
-        for protocol, seed in (("recommended", 3), ("paper", 4), ("examples/estimation", 5)):
+        for protocol, seed in (("examples/paired_staircases", 3), ("paper", 4), ("examples/estimation", 5)):
             self.run("simulate", PROTOCOLS / f"{protocol}.toml", "--participants", n_participants,
                      "--seed", seed, "--db", folder / f"{Path(protocol).name}.db")
         self.csv = {}
-        for protocol in ("recommended", "paper", "estimation"):
+        for protocol in ("paired_staircases", "paper", "estimation"):
             self.csv[protocol] = folder / f"csv-{protocol}"
             self.run("export", folder / f"{protocol}.db", "--out", self.csv[protocol])
 
@@ -98,7 +98,7 @@ class Comparison:
             return False
         for more in ([], ["--pseudonymise"]):
             out = self.folder / f"bids{len(more)}"
-            self.run("export", self.folder / "recommended.db", self.folder / "paper.db", "--format",
+            self.run("export", self.folder / "paired_staircases.db", self.folder / "paper.db", "--format",
                      "bids", "--out", out, *more)
             done = subprocess.run([validator, "--json", str(out)], capture_output=True, text=True)
             issues = json.loads(done.stdout)["issues"]
@@ -209,7 +209,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         comparison = Comparison(heft, Path(folder), n_participants)
         done = [comparison.validated()]
-        for protocol in ("recommended", "paper"):
+        for protocol in ("paired_staircases", "paper"):
             done += [comparison.r(protocol), comparison.pandas(protocol)]
         done.append(comparison.r("estimation"))
     print(f"{comparison.n_compared} comparisons, {comparison.n_wrong} differ")

@@ -40,7 +40,7 @@ FitCoverage fit_coverage(const Cell& cell, int studies) {
   for (int i = 0; i < studies; ++i) {
     std::vector<Chooser> people;
     const auto rows = sensitivities_of(
-        study(cell.n_people, cell.population, {recommended_at(cell.reference_g)}, stream, &people));
+        study(cell.n_people, cell.population, {paired_at(cell.reference_g)}, stream, &people));
     const MixedFit& fit = rows.at(0).fit;
     for (std::size_t k = 0; k < people.size(); ++k)
       if (const OwnSensitivity* own = fit.own(std::to_string(100 + k)))

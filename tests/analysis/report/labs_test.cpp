@@ -21,7 +21,7 @@ void add_lab(Dataset& dataset, const std::string& lab, double threshold_g, int n
   for (int i = 0; i < n_people; ++i) {
     SessionData data = session(i + 1, fmt::format("{}: P{}", lab, i));
     data.lab = lab;
-    compare(data, Population{threshold_g}.draw(stream), recommended_at(200), stream);
+    compare(data, Population{threshold_g}.draw(stream), paired_at(200), stream);
     dataset.sessions.push_back(data);
   }
 }

@@ -23,7 +23,7 @@ class Labs(SessionTest):
 
     def test_each_lab_has_its_thresholds(self):
         for seed, lab in enumerate(("lyon", "zurich")):
-            self.simulate("recommended.toml", lab, seed + 1)
+            self.simulate("examples/paired_staircases.toml", lab, seed + 1)
         logs = ["--db", "lyon.db", "--db", "zurich.db"]
         self.run_heft("analyse", *logs, "--out", "report", cwd=self.folder)
         labs = self.rows("report/labs.csv")
