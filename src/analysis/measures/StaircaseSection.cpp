@@ -324,7 +324,7 @@ class StaircaseSection final : public Section {
                                                      {"condition", one->condition},
                                                      {"reference_g", one->text_at("reference_g")},
                                                      {"method", one->text_at("method")}});
-      if (by_paper && by_paper->value)
+      if (by_paper && by_paper->value && one->text_at("method") == jnd_method)
         text += fmt::format(" (arithmetic mean {:.0f} g)", *by_paper->value);
       text += fmt::format(" at {:g} g", *one->reference_g);
       if (staircases != "all") text += " " + staircases;
