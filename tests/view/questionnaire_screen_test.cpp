@@ -1,10 +1,12 @@
 // Questionnaires on the screen: whether every question fits, and the touches of taps.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "EveryScreen.h"
 #include "SourceFolder.h"
 #include "base/files/TextFile.h"
+#include "tasks/Judgment.h"
 #include "view/screens/ScreenPages.h"
 #include "view/screens/TouchScreen.h"
 #include "view/text/TextFit.h"
@@ -40,7 +42,10 @@ ScreenState asked(const std::string& name, std::map<std::string, std::string> en
 struct Form {
   explicit Form(const ScreenState& state, Measures window = {1024, 600},
                 const std::string& language = "en")
-      : texts(texts_with_questionnaires(language)),
+      : Form(state, window, texts_with_questionnaires(language)) {}
+
+  Form(const ScreenState& state, Measures window, ScreenTexts with)
+      : texts(std::move(with)),
         measures(window),
         screen(texts, false, false, [](float, float) { return std::nullopt; }) {
     screen.show(state, false);
@@ -111,6 +116,31 @@ TEST(QuestionnaireScreen, EveryQuestionFitsEveryScreen) {
           expect_fits(form);
           form.tap("next");
         }
+      }
+}
+
+TEST(QuestionnaireScreen, AScaleOfAnyLengthFitsInLettersOfAnySize) {
+  FormQuestion likert;
+  likert.key = "l";
+  likert.kind = QuestionKind::likert;
+  likert.text = "How heavy did it feel?";
+  likert.low = "Not at all";
+  likert.high = "Very much";
+  for (const float text_size : {1.0f, 1.3f, 2.0f})
+    for (const Measures& window :
+         {Measures{1024, 600, text_size}, {1920, 1080, text_size}, {800, 1280, text_size}})
+      for (int n_points = 3; n_points <= 11; ++n_points) {
+        likert.from = 0;
+        likert.to = n_points - 1;
+        SCOPED_TRACE(fmt::format("{} points, {} x {}, letters {}", n_points, window.width,
+                                 window.height, text_size));
+        ScreenTexts texts = texts_with_questionnaires("en");
+        texts.questionnaires["scale"] = {"A scale", "", {likert}};
+        expect_fits(Form(asked("scale"), window, texts));
+        ScreenState trial = trial_state("judgment");
+        trial.n_slots = 1;
+        trial.offer = Judgment::Offer{likert};
+        expect_fits(Form(trial, window, texts));
       }
 }
 

@@ -23,9 +23,10 @@ using testing::IsSupersetOf;
 using testing::UnorderedElementsAre;
 using testing::UnorderedElementsAreArray;
 
-const std::vector<Measures> windows{
-    {800, 480},         {1024, 600},       {1280, 800}, {1920, 1080},      {800, 1280},
-    {1024, 600, 0.75f}, {1024, 600, 1.3f}, {1008, 520}, {1008, 520, 1.3f}, {3840, 2160, 1.3f}};
+const std::vector<Measures> windows{{800, 480},         {1024, 600},    {1280, 800},
+                                    {1920, 1080},       {800, 1280},    {1024, 600, 0.75f},
+                                    {1024, 600, 1.3f},  {1008, 520},    {1008, 520, 1.3f},
+                                    {3840, 2160, 1.3f}, {1024, 600, 2}, {800, 1280, 2}};
 
 bool overlap(const Rect& a, const Rect& b) {
   return a.overlaps(b);

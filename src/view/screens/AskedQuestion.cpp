@@ -88,16 +88,23 @@ void AskedQuestion::add_choices(const Rect& area) {
   }
 }
 
-// The labels of the ends above the first and the last button.
+// The labels of the ends above the first and the last button; where these are in several rows, with
+// the numbers that they belong to.
 float AskedQuestion::add_ends(const Rect& area) {
   const Measures& m = builder.measures;
+  const float rows_px = static_cast<float>(n_rows()) * (m.target + m.gap);
+  const float most_px = std::min(ends_lines * m.body, area.height - rows_px);
+  const bool numbered = question.kind == QuestionKind::likert && n_rows() > 1;
+  const auto words_at = [&](int point, const std::string& words) {
+    return numbered ? fmt::format("{}: {}", point, words) : words;
+  };
   const bool leftward = builder.typeface.reads_right_to_left();
   const Rect half{area.x, area.y, area.width / 2 - m.gap, 0};
   const auto fitted = [&](const std::string& words) {
-    return builder.typeface.fitted(words, m.body, half.width, ends_lines * m.body,
-                                   m.least_px(m.body));
+    return builder.typeface.fitted(words, m.body, half.width, most_px, m.least_px(m.body));
   };
-  const FittedText first = fitted(question.low), last = fitted(question.high);
+  const FittedText first = fitted(words_at(question.from, question.low)),
+                   last = fitted(words_at(question.to, question.high));
   const auto add = [&](const FittedText& words, bool left) {
     float y = area.y;
     for (const std::string& line : words.lines) {

@@ -22,10 +22,11 @@ void add_confirmation(PageBuilder& builder, const std::string& words, const Acti
 void add_question(PageBuilder& builder, const FormQuestion& question, const std::string& confirm,
                   const std::function<Action(const std::string& given)>& action) {
   const Rect column = column_of(builder);
+  const float height = bottom_row(builder).y - column.y - builder.measures.gap;
   const auto typed = builder.memory.typed.find(builder.entry_key(question.key));
   const std::string given = typed == builder.memory.typed.end() ? "" : typed->second;
   AskedQuestion(builder, question, given, AskedIn::trial)
-      .add_answers({column.x, column.y, column.width, column.height});
+      .add_answers({column.x, column.y, column.width, height});
   for (Control& control : builder.page.controls) control.enabled &= can_answer(builder);
   add_confirmation(builder, confirm, action(given), takes_answer(question, given));
 }

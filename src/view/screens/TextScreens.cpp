@@ -187,7 +187,7 @@ void declined_screen(PageBuilder& builder) {
   if (!add_text(builder, "declined", builder.memory.part, 2)) return;
   builder.add_button("next", builder.bottom_button(0), builder.text("declined", "take_back"),
                      touch_of(TouchKind::next));
-  builder.add_button("decline", builder.bottom_button(2), builder.text("declined", "leave"),
+  builder.add_button("decline", builder.bottom_button(1), builder.text("declined", "leave"),
                      touch_of(TouchKind::decline), 'n');
 }
 
