@@ -41,13 +41,14 @@ bool Likelihood::can_climb_along(Eigen::Index i, const Parameters& at) const {
 }
 
 // Newton's. Where the likelihood bends upwards it goes as far as if it bent down as much, so that
-// it always leads uphill. What can't move is taken out of the equations.
+// it always leads uphill. What can't move is taken out of the equations, and stays to the bit.
 Parameters Likelihood::step_against(const Parameters& slope, const Parameters& at,
                                     Eigen::Index held) const {
   Parameters step = slope;
   Curvature bend = -derivatives_.hessian;
+  const auto moves = [&](Eigen::Index i) { return i != held && can_climb_along(i, at); };
   for (Eigen::Index i = 0; i < n_; ++i) {
-    if (i != held && can_climb_along(i, at)) continue;
+    if (moves(i)) continue;
     step[i] = 0;
     bend.row(i).setZero();
     bend.col(i).setZero();
@@ -63,7 +64,10 @@ Parameters Likelihood::step_against(const Parameters& slope, const Parameters& a
   Parameters along = solver.eigenvectors().transpose() * step;
   for (Eigen::Index i = 0; i < n_; ++i)
     along[i] /= std::max(std::abs(solver.eigenvalues()[i]), 1e-8 * largest);
-  return solver.eigenvectors() * along;
+  step = solver.eigenvectors() * along;
+  for (Eigen::Index i = 0; i < n_; ++i)
+    if (!moves(i)) step[i] = 0;  // the eigenvectors have rounding errors
+  return step;
 }
 
 Parameters Likelihood::within_reach(Parameters step) const {

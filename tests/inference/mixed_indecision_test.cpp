@@ -6,6 +6,7 @@
 
 #include "base/Random.h"
 #include "inference/MixedIndecision.h"
+#include "inference/PopulationLikelihood.h"
 
 namespace heft {
 namespace {
@@ -179,6 +180,26 @@ TEST(MixedIndecision, OfOnePersonsChoicesAmongManyIsNone) {
   const MixedFit found = fit_mixed_indecision(people);
   EXPECT_FALSE(found.threshold_75_g.has_value());
   EXPECT_NE(found.why, "");
+}
+
+// Otherwise the search for a profile's end at a bound may never get there.
+TEST(PopulationLikelihood, WhatIsHeldStaysToTheBit) {
+  std::vector<std::vector<LevelAnswers>> people;
+  for (const auto& [name, answers] : people_like({200, 0}, 3)) {
+    people.emplace_back();
+    for (const auto& [level_g, n] : answers) people.back().push_back({level_g / 600, n});
+  }
+  PopulationLikelihood likelihood(people);
+  RandomStream stream(20261128, "starts");
+  for (int i = 0; i < 100; ++i) {
+    Parameters from(n_population_parameters);
+    for (Eigen::Index k = 0; k < n_population_parameters; ++k) {
+      const ParameterBounds& bounds = likelihood.bounds()[static_cast<std::size_t>(k)];
+      from[k] = bounds.low + stream.uniform() * (bounds.high - bounds.low);
+    }
+    const Eigen::Index held = i % n_population_parameters;
+    EXPECT_EQ(likelihood.climb(from, held).at[held], from[held]) << "start " << i;
+  }
 }
 
 }  // namespace
