@@ -101,15 +101,22 @@ Maximum PopulationLikelihood::climb(Parameters from, Eigen::Index held) {
       .climb_by_score(from, held, {held < 0 ? 1e-7 : 1e-5, of_choices_of_few});
 }
 
+// From the likeliest starts of people who are alike and of people who differ much: where some of
+// few people guess, both may be a maximum.
 Maximum PopulationLikelihood::maximum(std::optional<double> lapse) {
-  Maximum best{start(0), -infinity};
-  for (const double log_sensitivity : {-0.5, 0.5, 1.5, 2.5, 3.5}) {
-    Parameters at = start(log_sensitivity);
-    at[shared_lapse] = lapse.value_or(at[shared_lapse]);
-    best = likelier(best, {at, value(at, nullptr)});
-  }
   const Eigen::Index held = lapse ? Eigen::Index{shared_lapse} : -1;
-  return climb(best.at, held);
+  Maximum best{start(0), -infinity};
+  for (const double spread : {0.4, 1.5}) {
+    Maximum likeliest{start(0), -infinity};
+    for (const double log_sensitivity : {-0.5, 0.5, 1.5, 2.5, 3.5}) {
+      Parameters at = start(log_sensitivity);
+      at[log_sd_sensitivity] = std::log(spread);
+      at[shared_lapse] = lapse.value_or(at[shared_lapse]);
+      likeliest = likelier(likeliest, {at, value(at, nullptr)});
+    }
+    best = likelier(best, climb(likeliest.at, held));
+  }
+  return best;
 }
 
 namespace {
