@@ -18,7 +18,7 @@ for protocol in quick sorting jnd paper recommended; do
     said=$(./heft simulate "protocols/$protocol.toml" --participants $n --jobs $jobs --seed 1 \
       --db "$folder/$protocol-$jobs.db" 2>&1 | grep 'participants/min')
     wall=$(sed -E 's/.* in ([0-9.]+) s.*/\1/' <<<"$said")
-    speed=$(sed -E 's/.*: ([0-9.]+) participants/min.*/\1/' <<<"$said")
+    speed=$(sed -E 's|.*: ([0-9.]+) participants/min.*|\1|' <<<"$said")
     ((jobs == 1)) && single=$speed
     ratio=$(awk "BEGIN { printf \"%.2f\", $speed / $single }")
     echo "$protocol,$jobs,$n,$wall,$speed,$ratio,$commit,$command" >>"$here/speed.csv"
