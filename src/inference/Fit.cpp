@@ -115,7 +115,8 @@ std::string why_no_threshold(const SensitivityRange& range, const LevelReach& re
   if (!low || *low <= 0) return "no reliable sensitivity: its 95 % interval contains 0";
   if (z_75 / *low > 2 * reach.level_g)
     return fmt::format(
-        "the threshold's 95 % interval reaches to {:.4g} g, beyond twice the {} shown", z_75 / *low,
+        "the threshold's 95 % interval reaches to {:.{}f} g, beyond twice the {} shown",
+        z_75 / *low, z_75 / *low < 100 ? 1 : 0,
         reach.is_range ? "range of levels" : "largest level");
   return "";
 }

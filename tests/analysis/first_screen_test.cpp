@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "MadeUpSessions.h"
+#include "analysis/report/Notes.h"
 #include "analysis/report/Report.h"
 
 namespace heft {
@@ -120,6 +121,25 @@ TEST(FirstScreen, FitsATerminalHoweverMuchThereIs) {
   EXPECT_LE(lines.size(), 25);
   EXPECT_THAT(lines, Each(SizeIs(testing::Le(80))));
   EXPECT_THAT(lines.back(), HasSubstr("--tables"));
+}
+
+// Of a posterior's estimate these would be untrue.
+TEST(LeadingSentences, SayWhatThePapersJndIsOnlyWhereThereIsOne) {
+  const auto sentences_of = [](const std::string& method) {
+    std::vector<SessionData> people;
+    for (const char* name : {"a", "b", "c"}) {
+      people.push_back(session(static_cast<int>(people.size()) + 1, name));
+      add_staircase(people.back(), "s", 200, 80 + 10.0 * static_cast<double>(people.size()));
+      people.back().attempts.back().trial.plan.condition = "C2";
+      people.back().estimates.back().method = method;
+    }
+    return leading_sentences(summarize({"x.db", people}, ""));
+  };
+  EXPECT_THAT(sentences_of("mean_of_reversals"), Contains(HasSubstr("the paper's JND depends")));
+  EXPECT_THAT(sentences_of("mean_of_reversals"), Contains(HasSubstr("arithmetic mean")));
+  EXPECT_THAT(sentences_of("psi"), Contains(HasSubstr("JND (psi) in C2: ")));
+  EXPECT_THAT(sentences_of("psi"), Each(Not(HasSubstr("paper's JND"))));
+  EXPECT_THAT(sentences_of("psi"), Each(Not(HasSubstr("arithmetic mean"))));
 }
 
 }  // namespace

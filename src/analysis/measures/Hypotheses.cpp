@@ -71,7 +71,7 @@ std::string beside_paper(const std::optional<double>& mean, double published, in
   return fmt::format("; {}published {:.{}f}", own, published, decimals);
 }
 
-constexpr std::string_view no_staircase = "no finished staircase in the paper's technique";
+constexpr std::string_view no_staircase = "no JND by the paper's rule in the paper's technique";
 
 std::vector<std::string> jnd_figures(const Summary& summary) {
   std::vector<std::string> figures;

@@ -239,7 +239,7 @@ std::string other_estimators(const Summary& summary, Citations& citations) {
   };
   if (has_method("jnd", name_of(MeanKind::log_normal_mean)))
     text += fmt::format(
-        " The paper's JNDs are summarized by the mean of a log-normal distribution with censored "
+        " JNDs are summarized by the mean of a log-normal distribution with censored "
         "values ({}), with a profile-likelihood interval.",
         citations.cite(Source::tobit));
   if (find_estimate(all, "sorting_answers"))

@@ -23,7 +23,7 @@ std::string limits_sentence(const Summary& summary) {
   if (summary.simulated())
     text += summary.data == "simulated" ? "; a model answered, so nothing here is about people"
                                         : "; a model gave some of the answers";
-  if (find_estimate(summary.estimates, "jnd"))
+  if (find_estimate(summary.estimates, "jnd", {{"method", std::string(jnd_method)}}))
     text +=
         "; the paper's JND depends on the criterion and on the start of the staircase, so it does "
         "not measure perception alone";
