@@ -113,6 +113,8 @@ class Parsed(SessionTest):
             kind = program.rsplit("fuzz_")[-1]
             self.assertIn(f"tests/fuzz/corpus/{kind}", words)
             self.assertTrue((ROOT / "tests" / "fuzz" / "corpus" / kind).is_dir())
+        elif program.startswith("build/tests/test_"):
+            self.assertIn(words[1].removeprefix("--gtest_filter="), names_of_tests())
         else:
             self.fail(f"unknown command {program}: run it, or list it in NOT_RUN and look it up here")
 
