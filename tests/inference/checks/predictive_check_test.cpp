@@ -95,7 +95,8 @@ TEST(PredictiveCheck, OfTheModelItselfHasUniformP) {
   const int studies = n_studies(40);
   int n_below_05 = 0, n_below_half = 0;
   for (int i = 0; i < studies; ++i) {
-    const double p = check_predictions(fit_of_truth(), study(1, 12, 100 + i), edges_g).p;
+    const auto seed = static_cast<std::uint64_t>(100 + i);
+    const double p = check_predictions(fit_of_truth(), study(1, 12, seed), edges_g).p;
     EXPECT_GT(p, 0);
     n_below_05 += p < 0.05 ? 1 : 0;
     n_below_half += p < 0.5 ? 1 : 0;
