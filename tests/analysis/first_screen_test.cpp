@@ -123,6 +123,18 @@ TEST(FirstScreen, FitsATerminalHoweverMuchThereIs) {
   EXPECT_THAT(lines.back(), HasSubstr("--tables"));
 }
 
+TEST(FirstScreen, WhatWasDoneIsOneSentence) {
+  SessionData data = session(1, "a");
+  add_introduction(data, 1);
+  Summary summary = summarize({"x.db", {data}}, "heft analyse");
+  FirstScreenOptions options;
+  EXPECT_THAT(first_screen(summary, options), HasSubstr("1 trial completed: 1 introduction.\n"));
+  options.done = "2 min, simulated in 1 s";
+  summary.integrity.words = "verified";
+  EXPECT_THAT(first_screen(summary, options),
+              HasSubstr("1 introduction; 2 min, simulated in 1 s; verified.\n"));
+}
+
 // Of a posterior's estimate these would be untrue.
 TEST(LeadingSentences, SayWhatThePapersJndIsOnlyWhereThereIsOne) {
   const auto sentences_of = [](const std::string& method) {

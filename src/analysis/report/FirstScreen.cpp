@@ -68,7 +68,7 @@ Lines step_lines(const NextStep& step, std::size_t label_width) {
 // @param done what else was done, and the log's integrity
 std::string trials_in_words(const Summary& summary, std::string done) {
   const std::string& integrity = summary.integrity.words;
-  if (!integrity.empty()) done += (done.empty() ? "" : "; ") + integrity + '.';
+  if (!integrity.empty()) done += (done.empty() ? "" : "; ") + integrity;
   std::map<Task, int, InTaskOrder> by_task;
   int n_completed = 0;
   for (const LossRow& row : summary.quality.losses)
@@ -81,7 +81,7 @@ std::string trials_in_words(const Summary& summary, std::string done) {
   for (const auto& [task, n] : by_task) counts.push_back(fmt::format("{} {}", n, name_of(task)));
   const std::string text =
       fmt::format("{} completed: {}", counted(n_completed, "trial"), fmt::join(counts, ", "));
-  return text + (done.empty() ? "." : "; " + done);
+  return text + (done.empty() ? "" : "; " + done) + '.';
 }
 
 // Who answered, where the reader could take the results for more than they are.
