@@ -143,15 +143,6 @@ class ForcedChoiceSection final : public Section {
   std::vector<ChartSpec> charts() const override { return {shares.chart()}; }
 
  private:
-  static StudyEstimate own_estimate(const Measure& measure, const Compared& compared,
-                                    const std::string& participant, const AnswersByLevel& answers) {
-    StudyEstimate own{&measure, "comparison", compared.condition, compared.reference_g};
-    own.participant = participant;
-    own.n = 1;
-    own.n_trials = static_cast<int>(trials_in(answers));
-    return own;
-  }
-
   static void put_fit(Estimates& all, const Compared& compared, const std::string& participant,
                       const AnswersByLevel& answers) {
     const ForcedChoiceFit found = fit_forced_choice(answers);

@@ -148,15 +148,6 @@ class SameDifferentSection final : public Section {
   std::vector<ChartSpec> charts() const override { return {shares.chart()}; }
 
  private:
-  static StudyEstimate own_estimate(const Measure& measure, const Compared& compared,
-                                    const std::string& participant, const AnswersByLevel& answers) {
-    StudyEstimate own{&measure, "comparison", compared.condition, compared.reference_g};
-    own.participant = participant;
-    own.n = 1;
-    own.n_trials = static_cast<int>(trials_in(answers));
-    return own;
-  }
-
   static void put_own(Estimates& all, const Compared& compared, const std::string& participant,
                       const AnswersByLevel& answers) {
     const Fit fit = fit_same_different(answers, fixed_lapse);

@@ -20,6 +20,16 @@ namespace heft {
 /// Each participant's two kinds of answers by level; the second kind is counted.
 using AnswersByPerson = std::map<std::string, AnswersByLevel>;
 
+/// One participant's estimate, still without a value.
+inline StudyEstimate own_estimate(const Measure& measure, const Compared& compared,
+                                  const std::string& participant, const AnswersByLevel& answers) {
+  StudyEstimate own{&measure, "comparison", compared.condition, compared.reference_g};
+  own.participant = participant;
+  own.n = 1;
+  own.n_trials = static_cast<int>(trials_in(answers));
+  return own;
+}
+
 /// Each participant's estimates together that are of one reference, condition and measure.
 inline std::vector<std::vector<const StudyEstimate*>> together(const Estimates& own) {
   std::map<std::tuple<std::optional<double>, std::string, std::string_view>,

@@ -85,25 +85,26 @@ class Scale {
 
   double distance(double low, double high) const { return direction(low, high).dot(at_); }
 
-  /// None: without one of the people there is no estimate. @param n people
-  std::optional<Interval> interval(double low, double high, int n) const {
+  using Influences = std::map<std::string, double>;  // by person
+
+  /// @param n people  @param each their influences
+  Interval interval(double low, double high, int n, const Influences& each) const {
     const Eigen::VectorXd along = direction(low, high);
     const double variance = along.dot(best_.information.ldlt().solve(along));
     double ratio = 1;
-    if (n_people() > 1) {
-      const auto each = influences(low, high);
-      if (!each) return std::nullopt;
-      ratio = std::max(variance_of(*each) / variance, least_ratio(static_cast<double>(n_people())));
-    }
+    if (n_people() > 1)
+      ratio = std::max(variance_of(each) / variance, least_ratio(static_cast<double>(n_people())));
     const double t = student_t_quantile((n_people() > 1 ? n : n_orders_) - 1);
     const double fall = t * std::sqrt(ratio);
-    return Interval{end(along, -fall, variance), end(along, fall, variance)};
+    return {end(along, -fall, variance), end(along, fall, variance)};
   }
 
-  /// How the estimate changes without a person, to first order.
-  std::optional<std::map<std::string, double>> influences(double low, double high) const {
+  /// How the estimate changes without a person, to first order; of one person nothing. None:
+  /// without one of the people there is no estimate.
+  std::optional<Influences> influences(double low, double high) const {
+    if (n_people() <= 1) return Influences();
     const Eigen::VectorXd along = direction(low, high);
-    std::map<std::string, double> changes;
+    Influences changes;
     double mean = 0;
     for (const auto& [person, orders] : people_) {
       Landscape own{0, Eigen::VectorXd::Zero(at_.size()),
@@ -182,7 +183,7 @@ class Scale {
   }
 
   // The jackknife's.
-  static double variance_of(const std::map<std::string, double>& influences) {
+  static double variance_of(const Influences& influences) {
     double sum = 0;
     for (const auto& [person, change] : influences) sum += change * change;
     const auto n = static_cast<double>(influences.size());
@@ -251,13 +252,14 @@ PerceivedDistance distance_of(const Chains& chains, const Scale& scale, const Ra
       ranked.at(low), [&](const std::string& one) { return ranked.at(high).contains(one); }));
   found.why = why_none(chains, low, high, found.n, scale);
   if (!found.why.empty()) return found;
-  found.interval = scale.interval(low, high, found.n);
-  if (found.interval) {
-    found.value = scale.distance(low, high);
-    if (found.n > 1) found.influence = *scale.influences(low, high);
-  } else {
+  const auto influences = scale.influences(low, high);
+  if (!influences) {
     found.why = "one participant's orders alone link them";
+    return found;
   }
+  found.value = scale.distance(low, high);
+  found.interval = scale.interval(low, high, found.n, *influences);
+  if (found.n > 1) found.influence = *influences;
   return found;
 }
 }  // namespace
