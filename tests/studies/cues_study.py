@@ -1,4 +1,4 @@
-"""Is mass told by anything but the technique? A study of simulated sessions of paired_staircases.toml: for
+"""Does anything but the technique reveal mass? A study of simulated sessions of paired_staircases.toml: for
 each cue that a participant could have before the answer (side, order, time until the cubes are
 there, cubes put back, jumps of clone and cubes from one displayed frame to the next), how well it
 alone tells the mass, against chance.

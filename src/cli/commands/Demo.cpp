@@ -60,7 +60,8 @@ void demo(const DemoOptions& options) {
   const std::string log = "--db " + shell_quoted(request.db);
   FirstScreenOptions screen;
   screen.max_lines = 24;  // the line above is the first
-  screen.done = fmt::format("{:.0f} min, simulated in {:.0f} s", result.duration_s / 60, elapsed.count());
+  screen.done =
+      fmt::format("{:.0f} min, simulated in {:.0f} s", result.duration_s / 60, elapsed.count());
   if (!files.charts_drawn) screen.attention.emplace_back(missing_charts);
   screen.next = {
       {"Report", report + "/report.html"},
