@@ -304,20 +304,9 @@ OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* 
   return {z_75 / own->value, Interval{z_75 / *own->high, z_75 / *own->low}, ""};
 }
 
-Interval ThresholdContrast::interval(double confidence) const {
-  const double half = student_t_quantile(n - 1, confidence) * standard_error;
-  return {value - half, value + half};
-}
-
-double ThresholdContrast::smallest_effect() const {
-  constexpr double both_tails_of_80_percent_power = 0.6;
-  return (student_t_quantile(n - 1) + student_t_quantile(n - 1, both_tails_of_80_percent_power)) *
-         standard_error;
-}
-
-ThresholdContrast threshold_contrast(std::span<const MixedFit* const> fits,
+Contrast threshold_contrast(std::span<const MixedFit* const> fits,
                                      std::span<const double> weights) {
-  ThresholdContrast contrast;
+  Contrast contrast;
   std::map<std::string, double> influence;
   for (std::size_t i = 0; i < fits.size(); ++i) {
     contrast.value += weights[i] * std::log(fits[i]->threshold_75_g->value);
@@ -331,7 +320,7 @@ ThresholdContrast threshold_contrast(std::span<const MixedFit* const> fits,
   return contrast;
 }
 
-ThresholdContrast threshold_exponent(std::span<const MixedFit* const> fits,
+Contrast threshold_exponent(std::span<const MixedFit* const> fits,
                                      std::span<const double> references_g) {
   std::vector<double> log_references;
   for (const double reference_g : references_g) log_references.push_back(std::log(reference_g));

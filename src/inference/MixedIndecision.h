@@ -29,9 +29,6 @@ namespace heft {
 /// Answers by signed level in g, by participant: reference, none, comparison; or left, none, right.
 using AnswersByPerson = std::map<std::string, AnswersByLevel>;
 
-/// With fewer people (except a single one, whose own fit is used) there is no interval.
-inline constexpr int least_people = 5;
-
 /// A positive figure of a fit; an end that is none is infinite or 0.
 struct MixedFigure {
   double value = 0;
@@ -93,25 +90,17 @@ struct OwnThreshold {
 ///   these answers alone with a lapse rate of fixed_lapse
 OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* own);
 
-/// A weighted sum of the log thresholds of several fits (or of perceived masses: Thurstone.h), over
-/// the people in any of them: a difference, a slope. The variance is the infinitesimal jackknife's
-/// (Jaeckel 1972), so that what the same people have in common in several fits cancels.
-struct ThresholdContrast {
-  double value = 0, standard_error = 0;
-  int n = 0;                                                      ///< people
-  Interval interval(double confidence = confidence_level) const;  ///< Student's t, n - 1 df
-  /// The smallest true value that 80 % of such studies would find (95 % interval excludes 0).
-  double smallest_effect() const;
-};
-
+/// A weighted sum of the log thresholds of several fits, over the people in any of them. The
+/// variance is the infinitesimal jackknife's (Jaeckel 1972), so that what the same people have in
+/// common in several fits cancels.
 /// @param fits identifiable, with n >= least_people together
-ThresholdContrast threshold_contrast(std::span<const MixedFit* const> fits,
+Contrast threshold_contrast(std::span<const MixedFit* const> fits,
                                      std::span<const double> weights);
 
 /// The least-squares slope of log threshold on log reference: the exponent beta of threshold ~
 /// reference^beta; 0: thresholds are equal, 1: proportional (Weber's law). At least two references,
 /// all above 0.
-ThresholdContrast threshold_exponent(std::span<const MixedFit* const> fits,
+Contrast threshold_exponent(std::span<const MixedFit* const> fits,
                                      std::span<const double> references_g);
 
 }  // namespace heft

@@ -8,6 +8,17 @@
 
 namespace heft {
 
+Interval Contrast::interval(double confidence) const {
+  const double half = student_t_quantile(n - 1, confidence) * standard_error;
+  return {value - half, value + half};
+}
+
+double Contrast::smallest_effect() const {
+  constexpr double both_tails_of_80_percent_power = 0.6;
+  return (student_t_quantile(n - 1) + student_t_quantile(n - 1, both_tails_of_80_percent_power)) *
+         standard_error;
+}
+
 std::optional<double> mean(std::span<const double> values) {
   if (values.empty()) return std::nullopt;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());

@@ -15,6 +15,18 @@ struct Interval {
   double low = 0, high = 0;
 };
 
+/// With fewer people (except a single one, whose own fit is used) there is no interval.
+inline constexpr int least_people = 5;
+
+/// A difference or slope over several people's figures.
+struct Contrast {
+  double value = 0, standard_error = 0;
+  int n = 0;                                                      ///< people
+  Interval interval(double confidence = confidence_level) const;  ///< Student's t, n - 1 df
+  /// The smallest true value that 80 % of such studies would find (95 % interval excludes 0).
+  double smallest_effect() const;
+};
+
 /// None for no values.
 std::optional<double> mean(std::span<const double> values);
 

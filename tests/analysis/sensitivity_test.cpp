@@ -126,7 +126,7 @@ TEST(Hypotheses, FollowTheExponentOfThresholds) {
 
 TEST(ThresholdContrast, OfTwoIndependentThresholdsHasTheirVariancesSum) {
   const MixedFit light = known(100, 0.3, "a"), heavy = known(200, 0.3, "b");
-  const ThresholdContrast ratio =
+  const Contrast ratio =
       threshold_contrast(std::array{&light, &heavy}, std::array{-1.0, 1.0});
   EXPECT_NEAR(ratio.value, std::log(2), 1e-12);
   EXPECT_EQ(ratio.n, 26);
@@ -138,7 +138,7 @@ TEST(ThresholdContrast, OfTwoIndependentThresholdsHasTheirVariancesSum) {
 // The same people in both: what they have in common cancels.
 TEST(ThresholdContrast, OfTheSamePeopleKeepsWhatDiffers) {
   const MixedFit light = known(100, 0.3, "a"), heavy = known(200, 0.3, "a");
-  const ThresholdContrast ratio =
+  const Contrast ratio =
       threshold_contrast(std::array{&light, &heavy}, std::array{-1.0, 1.0});
   EXPECT_EQ(ratio.n, 13);
   EXPECT_NEAR(ratio.standard_error, 0, 1e-12);
@@ -147,7 +147,7 @@ TEST(ThresholdContrast, OfTheSamePeopleKeepsWhatDiffers) {
 TEST(ThresholdExponent, IsTheSlopeOfLogThresholdOnLogReference) {
   const MixedFit light = known(10, 0.3, "a"), middle = known(20, 0.3, "b"),
                  heavy = known(40, 0.3, "c");
-  const ThresholdContrast slope =
+  const Contrast slope =
       threshold_exponent(std::array{&light, &middle, &heavy}, std::array{100.0, 400.0, 1600.0});
   EXPECT_NEAR(slope.value, 0.5, 1e-12);
 }

@@ -48,7 +48,7 @@ void put_threshold(Estimates& all, const Compared& compared, const std::string& 
 
 void put_ratio(Estimates& all, const Compared& compared, const FitsByLab::value_type& lab,
                const FitsByLab::value_type& other) {
-  const ThresholdContrast contrast =
+  const Contrast contrast =
       threshold_contrast(std::array{&other.second, &lab.second}, std::array{-1.0, 1.0});
   const auto [low, high] = contrast.interval();
   StudyEstimate ratio = estimate_at(lab_ratio, compared, lab.first);

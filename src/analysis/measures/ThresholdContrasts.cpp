@@ -39,7 +39,7 @@ StudyEstimate estimate_at(const Measure& measure, const ReferenceSensitivity& ro
 // @param row the threshold above the fraction line
 void put_ratio(Estimates& all, const Measure& measure, const ReferenceSensitivity& row,
                const ReferenceSensitivity& below, Coordinate where) {
-  const ThresholdContrast contrast =
+  const Contrast contrast =
       threshold_contrast(std::array{&below.fit, &row.fit}, std::array{-1.0, 1.0});
   const auto [low, high] = contrast.interval();
   StudyEstimate& one = all.emplace_back(estimate_at(measure, row, contrast.n));
@@ -60,7 +60,7 @@ void put_exponent(Estimates& all, const Rows& rows) {
       references_g.push_back(row->compared.reference_g);
     }
   if (fits.size() < 2) return;
-  const ThresholdContrast slope = threshold_exponent(fits, references_g);
+  const Contrast slope = threshold_exponent(fits, references_g);
   StudyEstimate& one = all.emplace_back(estimate_at(exponent, *rows.front(), slope.n));
   one.reference_g.reset();
   one.value = slope.value;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <set>
 
+#include "inference/Fit.h"
+
 namespace heft {
 
 namespace {
@@ -299,11 +301,11 @@ std::vector<PerceivedStimulus> perceived_values(const OrdersByPerson& people) {
   return found;
 }
 
-ThresholdContrast perceived_contrast(const PerceivedDistance& from, const PerceivedDistance& to) {
+Contrast perceived_contrast(const PerceivedDistance& from, const PerceivedDistance& to) {
   const auto standard_error = [](const PerceivedDistance& one) {
     return (one.interval->high - one.interval->low) / 2 / student_t_quantile(one.n - 1);
   };
-  ThresholdContrast contrast{*to.value - *from.value};
+  Contrast contrast{*to.value - *from.value};
   std::set<std::string> people;
   double both = 0, of_from = 0, of_to = 0;
   for (const auto& [person, change] : from.influence) {

@@ -20,7 +20,6 @@
 #include <string>
 #include <vector>
 
-#include "inference/MixedIndecision.h"
 #include "inference/Statistics.h"
 
 namespace heft {
@@ -55,7 +54,7 @@ std::vector<PerceivedStimulus> perceived_values(const OrdersByPerson& people);
 /// `to` less `from`, distances of several people in two conditions. The standard errors are those
 /// of their intervals (half-width by Student's t); people who ranked in both correlate them as
 /// their influences do.
-ThresholdContrast perceived_contrast(const PerceivedDistance& from, const PerceivedDistance& to);
+Contrast perceived_contrast(const PerceivedDistance& from, const PerceivedDistance& to);
 
 /// Of log P(X_1 < ... < X_n), by the values.
 struct RankingProbability {
