@@ -197,6 +197,14 @@ class PlainWords(unittest.TestCase):
         r"\b(?:class|struct|enum class) (?:Setup|Noticed|Judging|Mind|Slid|Finish|Unseen|Fold)\b",
     ]), re.I)
 
+    # In the parts of a name: goes_on, GoesOn.
+    IN_NAMES = re.compile(r"\b(?:told|tells?|(?:goes|go|going|gone|went) on|whoever|anybody|nobody)\b", re.I)
+
+    @classmethod
+    def found_in(cls, line, is_code):
+        parts = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", line).replace("_", " ") if is_code else ""
+        return cls.WORDS.findall(line) or cls.IN_NAMES.findall(parts)
+
     def test_sources_and_readmes_use_them(self):
         pages = [path for path in files_in(ROOT) if path.name == "README.md"]
         pages = [path for path in pages if path != SRC / "record" / "README.md"]  # lists renamed words
@@ -204,7 +212,7 @@ class PlainWords(unittest.TestCase):
                  for path in pages + [path for path in files_in(SRC) if path.suffix != ".md"]
                  if path.name != "Upgrade.cpp"  # renames words of older logs
                  for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
-                 for word in self.WORDS.findall(line)]
+                 for word in self.found_in(line, path.suffix != ".md")]
         if found:
             self.fail(f"{len(found)} places:\n" + "\n".join(found))
 

@@ -49,15 +49,15 @@ class Descriptor {
 }
 }  // namespace
 
-class EventOutlet::Way {
+class EventOutlet::Channel {
  public:
-  virtual ~Way() = default;
+  virtual ~Channel() = default;
   /// @return whether the whole line was sent, or will be before the next one
   virtual bool hand_over(const std::string& line) = 0;
 };
 
 namespace {
-class Datagrams final : public EventOutlet::Way {
+class Datagrams final : public EventOutlet::Channel {
  public:
   Datagrams(const EventTarget::Udp& target, const std::string& spec) {
     const auto& [host, port] = target;
@@ -89,7 +89,7 @@ class Datagrams final : public EventOutlet::Way {
 };
 
 // Opens the pipe when it has a reader, and again for each new reader.
-class PipeWriter final : public EventOutlet::Way {
+class PipeWriter final : public EventOutlet::Channel {
  public:
   PipeWriter(const EventTarget::NamedPipe& target, const std::string& spec) : path_(target.path) {
     struct stat there {};
@@ -115,7 +115,7 @@ class PipeWriter final : public EventOutlet::Way {
 };
 
 // Completes an interrupted line before it sends the next one.
-class SerialWriter final : public EventOutlet::Way {
+class SerialWriter final : public EventOutlet::Channel {
  public:
   SerialWriter(const EventTarget::SerialLine& target, const std::string& spec)
       : line_(open(target.device.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {
@@ -165,13 +165,13 @@ EventTarget::Udp udp_target(const std::string& target, const std::string& spec) 
 }
 
 struct Opens {
-  std::unique_ptr<EventOutlet::Way> operator()(const EventTarget::Udp& target) const {
+  std::unique_ptr<EventOutlet::Channel> operator()(const EventTarget::Udp& target) const {
     return std::make_unique<Datagrams>(target, spec);
   }
-  std::unique_ptr<EventOutlet::Way> operator()(const EventTarget::NamedPipe& target) const {
+  std::unique_ptr<EventOutlet::Channel> operator()(const EventTarget::NamedPipe& target) const {
     return std::make_unique<PipeWriter>(target, spec);
   }
-  std::unique_ptr<EventOutlet::Way> operator()(const EventTarget::SerialLine& target) const {
+  std::unique_ptr<EventOutlet::Channel> operator()(const EventTarget::SerialLine& target) const {
     return std::make_unique<SerialWriter>(target, spec);
   }
 
@@ -191,12 +191,12 @@ EventTarget parse_event_target(const std::string& text) {
 }
 
 EventOutlet::EventOutlet(const EventTarget& target)
-    : way_(std::visit(Opens{target.text}, target.to)) {}
+    : channel_(std::visit(Opens{target.text}, target.to)) {}
 EventOutlet::~EventOutlet() = default;
 
 void EventOutlet::send(const std::string& line) {
   constexpr std::size_t longest = 4096;  // a longer line could be split by a pipe (PIPE_BUF)
-  const bool is_taken = line.size() < longest && way_->hand_over(line + '\n');
+  const bool is_taken = line.size() < longest && channel_->hand_over(line + '\n');
   ++(is_taken ? n_sent_ : n_dropped_);
 }
 

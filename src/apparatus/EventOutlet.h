@@ -51,10 +51,10 @@ class EventOutlet {
   /// Lines that could not be sent.
   std::int64_t n_dropped() const { return n_dropped_; }
 
-  class Way;  ///< that lines take
+  class Channel;  ///< that lines take
 
  private:
-  std::unique_ptr<Way> way_;
+  std::unique_ptr<Channel> channel_;
   std::int64_t n_sent_ = 0, n_dropped_ = 0;
 };
 

@@ -56,12 +56,12 @@ Option add_plug(Command& command, const std::string& name, std::optional<Plug>& 
   return command.add_option(name, reads_plug(name, plug), help);
 }
 
-Option add_responder(Command& command, std::optional<WhoAnswers>& responder,
+Option add_responder(Command& command, std::optional<ResponderChoice>& responder,
                      const std::string& help) {
   return command.add_option("--responder", reads_plug("--responder", responder), help);
 }
 
-Option add_responders(Command& command, std::vector<WhoAnswers>& responders,
+Option add_responders(Command& command, std::vector<ResponderChoice>& responders,
                       const std::string& help) {
   const auto read = [&responders](const std::string& text) {
     refuse_unfinished("--responder", text);
@@ -136,14 +136,14 @@ void add_settings(Command& command, std::vector<ProtocolSetting>& settings,
   command.add_option("--set", ReadsText{read, true}, help);
 }
 
-void add_go_on(Command& command, bool& go_on) {
-  command.add_flag("--go-on", go_on,
+void add_ignore_failed_checks(Command& command, bool& ignore_failed_checks) {
+  command.add_flag("--ignore-failed-checks", ignore_failed_checks,
                    "continue after a FAILED check of the apparatus where there is no terminal "
                    "to ask; it is logged");
 }
 
-void add_elsewhere_options(Command& command, SessionOptions& given,
-                           std::optional<EventTarget>& events) {
+void add_output_options(Command& command, SessionOptions& given,
+                        std::optional<EventTarget>& events) {
   command.group("Backups and other recorders");
   command.add_option("--operator", &given.run_by,
                      "who runs the session, for the log (default: the study plan's; for a resumed "
@@ -312,7 +312,7 @@ SessionResult run_session(const CommandedSession& session,
   const double expected = total_of(expected_trials(*session.config->protocol));
   RunnerOptions options;
   options.stop = &stop_on_signal.requested();
-  options.go_on_unchecked = session.go_on_unchecked;
+  options.ignore_failed_checks = session.ignore_failed_checks;
   options.events = events ? &*events : nullptr;
   options.print = [](const std::string& text) { say("heft: {}\n", text); };
   if (session.config->on_wall_clock) {

@@ -27,10 +27,10 @@ Option add_plug(Command& command, const std::string& name, std::optional<Plug>& 
                 const std::string& help);
 
 /// human, NAME or NAME:FILE
-Option add_responder(Command& command, std::optional<WhoAnswers>& responder,
+Option add_responder(Command& command, std::optional<ResponderChoice>& responder,
                      const std::string& help);
 /// The same for several models.
-Option add_responders(Command& command, std::vector<WhoAnswers>& responders,
+Option add_responders(Command& command, std::vector<ResponderChoice>& responders,
                       const std::string& help);
 
 /// One of an enumeration's names.
@@ -69,8 +69,8 @@ void print_simulator(const ResolvedConfig& config);
 std::vector<std::string> cautions(const Protocol& protocol);
 
 /// Adds --operator, --backup, --events.
-void add_elsewhere_options(Command& command, SessionOptions& given,
-                           std::optional<EventTarget>& events);
+void add_output_options(Command& command, SessionOptions& given,
+                        std::optional<EventTarget>& events);
 
 /// Adds --unverified.
 void add_unverified(Command& command, bool& unverified);
@@ -92,13 +92,13 @@ struct CommandedSession {
   const ResolvedConfig& config;
   std::string db;
   bool unblind = false;
-  bool go_on_unchecked = false;
+  bool ignore_failed_checks = false;
   std::optional<EventTarget> events = {};
   std::string place = {};  ///< in a study, "7 of 24"
 };
 
-/// Adds --go-on.
-void add_go_on(Command& command, bool& go_on);
+/// Adds --ignore-failed-checks.
+void add_ignore_failed_checks(Command& command, bool& ignore_failed_checks);
 
 /// Runs `run` with Ctrl-C as a clean stop, and with a progress bar, or the experimenter's console
 /// if the session runs in real time. A participant who declines ends it as well. Afterwards the log

@@ -42,7 +42,7 @@ std::optional<std::string> Engine::refusal(const Event& event) const {
       if (paused_) return "the session is paused";
       return open_->refusal(event);
     case EventRole::course:
-      if (over_) return "the session has ended";
+      if (ended_) return "the session has ended";
       return course_refusal(event);
     case EventRole::setting:
     case EventRole::recorded:
@@ -122,7 +122,7 @@ void Engine::fold(const Event& event, Changes& changes) {
         set_paused(false);
       },
       [&](const SessionEnded& ended) {
-        over_ = true;
+        ended_ = true;
         const bool finished = ended.how == Ending::finished;
         set_state(finished ? SessionState::finished : SessionState::aborted, changes);
       },
@@ -285,7 +285,7 @@ std::unique_ptr<TaskTrial> Engine::attempt_at(const TrialPlan& plan) const {
 
 Next Engine::what_next() const {
   Next next;
-  if (over_) return next;
+  if (ended_) return next;
   if (open_) next.plan = open_->plan();
   if (paused_ || open_) {
     next.kind = paused_ ? Next::Kind::paused : Next::Kind::act;
@@ -317,7 +317,7 @@ ScreenState Engine::screen() const {
   if (next_.kind == Next::Kind::demonstration) screen.screen = Screen::demonstration;
   if (next_.rest) screen.screen = Screen::rest;
   if (paused_) screen.screen = Screen::paused;
-  if (over_ || next_.kind == Next::Kind::finish) screen.screen = Screen::thanks;
+  if (ended_ || next_.kind == Next::Kind::finish) screen.screen = Screen::thanks;
   return screen;
 }
 
@@ -325,8 +325,8 @@ ScreenState Engine::screen_with_cubes() const {
   return open_ && !paused_ ? open_->screen(true) : screen();
 }
 
-std::optional<std::string> Engine::survivor() const {
-  return run_ ? run_->survivor() : std::nullopt;
+std::optional<std::string> Engine::unfinished_staircase() const {
+  return run_ ? run_->unfinished_staircase() : std::nullopt;
 }
 
 }  // namespace heft

@@ -115,7 +115,7 @@ class Engine {
   double last_s() const { return last_s_; }
 
   /// The last unfinished one of several interleaved staircases; none while more are running.
-  std::optional<std::string> survivor() const;
+  std::optional<std::string> unfinished_staircase() const;
 
  private:
   std::optional<std::string> refusal(const Event& event) const;
@@ -145,7 +145,7 @@ class Engine {
   std::map<std::string, double> parameters_;  // of the participant, from the last setup
   int n_events_ = 0, n_attempts_ = 0, n_completed_ = 0;
   double last_s_ = 0, trial_due_s_ = 0;
-  bool paused_ = false, over_ = false;
+  bool paused_ = false, ended_ = false;
 
   std::size_t block_ = 0;         // of the next or open trial
   std::unique_ptr<TaskRun> run_;  // of that block; null: no trials left

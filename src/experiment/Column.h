@@ -17,7 +17,7 @@
 namespace heft {
 
 /// Version of the log that this program writes, and the oldest that it reads.
-inline constexpr int todays_log_version = 9, oldest_log_version = 5;
+inline constexpr int current_log_version = 9, oldest_log_version = 5;
 
 struct LogColumn {
   std::string_view name;

@@ -22,7 +22,7 @@ std::string to_text(const Plug& plug) {
   return plug.what.empty() ? plug.name : plug.name + ":" + plug.what;
 }
 
-std::string to_text(const WhoAnswers& responder) {
+std::string to_text(const ResponderChoice& responder) {
   const auto* model = std::get_if<Plug>(&responder);
   return model ? to_text(*model) : std::string(person);
 }
@@ -51,7 +51,7 @@ bool from_text(std::string_view text, Plug& plug) {
   return true;
 }
 
-bool from_text(std::string_view text, WhoAnswers& responder) {
+bool from_text(std::string_view text, ResponderChoice& responder) {
   if (text == person) {
     responder = Person{};
     return true;

@@ -29,7 +29,7 @@ struct Plug {
 struct Person {
   bool operator==(const Person&) const = default;
 };
-using WhoAnswers = std::variant<Person, Plug>;
+using ResponderChoice = std::variant<Person, Plug>;
 
 /// A file with its contents, so that resume and replay do not need it.
 struct ConfigFile {
@@ -71,7 +71,7 @@ struct EnumNames<TakesKeys> {
 
 struct SessionConfig {
   static constexpr EventType event_type{"setup", EventRole::setting};
-  WhoAnswers responder = Plug{"simulated"};
+  ResponderChoice responder = Plug{"simulated"};
   Plug tracker{"hand"};
   Plug view{"headless"};
   std::string simulator;
@@ -115,12 +115,12 @@ struct SessionConfig {
 // Texts for columns, JSON and the command line (Column.h). from_text() keeps a plug's settings.
 
 std::string to_text(const Plug& plug);
-std::string to_text(const WhoAnswers& responder);
+std::string to_text(const ResponderChoice& responder);
 std::string to_text(const ProtocolSetting& setting);
 std::string to_text(const std::vector<ProtocolSetting>& settings);  ///< one per line
 std::string to_text(const NamedDisplay& display);
 bool from_text(std::string_view text, Plug& plug);
-bool from_text(std::string_view text, WhoAnswers& responder);
+bool from_text(std::string_view text, ResponderChoice& responder);
 bool from_text(std::string_view text, ProtocolSetting& setting);
 bool from_text(std::string_view text, std::vector<ProtocolSetting>& settings);
 bool from_text(std::string_view text, NamedDisplay& display);

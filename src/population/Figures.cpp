@@ -22,7 +22,7 @@ std::optional<double> percent_of(const Tally& tally) {
 }
 
 // Keeps what figures need of a session's events.
-class FigureFold {
+class FigureCollector {
  public:
   void add(const Event& event, const Changes& changes) {
     if (event.as<TrialStarted>()) n_choices_ = 0;
@@ -170,7 +170,7 @@ void run_alone(const ResolvedConfig& config, Responder& responder, std::uint64_t
 std::vector<std::optional<double>> figures_of_one(const ResolvedConfig& config,
                                                   Responder& responder, std::uint64_t seed,
                                                   std::span<const FigurePlace> places) {
-  FigureFold fold;
+  FigureCollector fold;
   run_alone(config, responder, seed,
             [&](const Event& event, const Changes& changes) { fold.add(event, changes); });
   std::vector<std::optional<double>> figures;

@@ -44,7 +44,7 @@ bool made_by_world(const Event& event) {
 
 }  // namespace
 
-FrameCheck::FrameCheck(const Protocol& protocol, const AttemptFold& attempt,
+FrameCheck::FrameCheck(const Protocol& protocol, const AttemptCollector& attempt,
                        FrameCheckOptions options)
     : protocol_(protocol), attempt_(attempt), options_(std::move(options)) {}
 
@@ -89,10 +89,10 @@ bool FrameCheck::check(const FrameRow& frame, const ShownFrame& shown, int n_bef
 }
 
 void FrameCheck::measure(const FrameRow& frame, const ShownFrame& shown) {
-  const auto compare = [&](const std::optional<Pose>& logged, const std::optional<Pose>& came_out) {
-    if (logged && came_out)
+  const auto compare = [&](const std::optional<Pose>& logged, const std::optional<Pose>& replayed) {
+    if (logged && replayed)
       largest_difference_m_ =
-          std::max(largest_difference_m_, (logged->position_m - came_out->position_m).norm());
+          std::max(largest_difference_m_, (logged->position_m - replayed->position_m).norm());
   };
   compare(frame.clone, shown.frame.clone);
   for (std::size_t i = 0; i < frame.cubes.size(); ++i)
@@ -100,20 +100,20 @@ void FrameCheck::measure(const FrameRow& frame, const ShownFrame& shown) {
 }
 
 bool FrameCheck::same(const FrameRow& frame, const char* column, const std::string& logged,
-                      const std::string& came_out) {
-  if (logged == came_out) return true;
-  options_.differ(frame.t_s, fmt::format("frame, {}", column), logged, came_out);
+                      const std::string& replayed) {
+  if (logged == replayed) return true;
+  options_.differ(frame.t_s, fmt::format("frame, {}", column), logged, replayed);
   return false;
 }
 
 bool FrameCheck::same_pose(const FrameRow& frame, const std::string& column,
-                           const std::optional<Pose>& logged, const std::optional<Pose>& came_out) {
-  if (!options_.equal_bits && logged && came_out) {
-    const double difference_m = (logged->position_m - came_out->position_m).norm();
+                           const std::optional<Pose>& logged, const std::optional<Pose>& replayed) {
+  if (!options_.equal_bits && logged && replayed) {
+    const double difference_m = (logged->position_m - replayed->position_m).norm();
     largest_difference_m_ = std::max(largest_difference_m_, difference_m);
     if (difference_m <= pose_tolerance_m) return true;
   }
-  return same(frame, column.c_str(), text_of(logged), text_of(came_out));
+  return same(frame, column.c_str(), text_of(logged), text_of(replayed));
 }
 
 void FrameCheck::check_end(const FrameRow& last) {
@@ -124,8 +124,8 @@ void FrameCheck::check_end(const FrameRow& last) {
 }
 
 // Where bits may differ, the logged push is used.
-void FrameCheck::take_over_push(Event& came_out, const Event& logged) {
-  auto* touch = std::get_if<CubeTouch>(&came_out.what);
+void FrameCheck::take_over_push(Event& replayed, const Event& logged) {
+  auto* touch = std::get_if<CubeTouch>(&replayed.what);
   const auto* logged_touch = logged.as<CubeTouch>();
   if (!touch || !logged_touch || options_.equal_bits) return;
   const auto differs = [](const std::optional<double>& a, const std::optional<double>& b) {
@@ -146,13 +146,13 @@ void FrameCheck::check_events(const std::vector<Event>& derived) {
   const std::size_t n = std::min(logged.size(), derived.size());
   for (std::size_t i = 0; i < n; ++i) {
     const Event& event = logged[i].event;
-    Event came_out = derived[i];
+    Event replayed = derived[i];
     // Cubes are shown with the frame, and not before an event that was already logged.
-    came_out.t_s =
-        came_out.as<CubesShown>() ? event.t_s : std::max(came_out.t_s, logged[i].previous_s);
-    take_over_push(came_out, event);
-    if (event != came_out)
-      return options_.differ(event.t_s, "event", text_of(event), text_of(came_out));
+    replayed.t_s =
+        replayed.as<CubesShown>() ? event.t_s : std::max(replayed.t_s, logged[i].previous_s);
+    take_over_push(replayed, event);
+    if (event != replayed)
+      return options_.differ(event.t_s, "event", text_of(event), text_of(replayed));
   }
   if (attempt_.row.status != TrialStatus::completed || logged.size() == derived.size()) return;
   if (logged.size() > n)

@@ -23,7 +23,7 @@ struct FrameCheckOptions {
 
 class FrameCheck {
  public:
-  FrameCheck(const Protocol& protocol, const AttemptFold& attempt, FrameCheckOptions options);
+  FrameCheck(const Protocol& protocol, const AttemptCollector& attempt, FrameCheckOptions options);
 
   /// Recomputes the attempt up to the first difference.
   /// @param frames all of the attempt's, at least one
@@ -37,15 +37,15 @@ class FrameCheck {
   bool check(const FrameRow& frame, const ShownFrame& shown, int n_before);
   void measure(const FrameRow& frame, const ShownFrame& shown);
   bool same(const FrameRow& frame, const char* column, const std::string& logged,
-            const std::string& came_out);
+            const std::string& replayed);
   bool same_pose(const FrameRow& frame, const std::string& column,
-                 const std::optional<Pose>& logged, const std::optional<Pose>& came_out);
-  void take_over_push(Event& came_out, const Event& logged);
+                 const std::optional<Pose>& logged, const std::optional<Pose>& replayed);
+  void take_over_push(Event& replayed, const Event& logged);
   void check_end(const FrameRow& last);
   void check_events(const std::vector<Event>& derived);
 
   const Protocol& protocol_;
-  const AttemptFold& attempt_;
+  const AttemptCollector& attempt_;
   FrameCheckOptions options_;
   double largest_difference_m_ = 0;
 };

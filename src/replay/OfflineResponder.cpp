@@ -47,7 +47,7 @@ class Model {
  public:
   using Draws = std::vector<std::unique_ptr<Responder>>;
 
-  Model(const LoggedSession& session, const WhoAnswers& responder, const JudgeRequest& request)
+  Model(const LoggedSession& session, const ResponderChoice& responder, const JudgeRequest& request)
       : session_(session), named_(named(responder)), name_(to_text(responder)), request_(request) {}
 
   const std::string& name() const { return name_; }
@@ -69,7 +69,7 @@ class Model {
  private:
   std::int64_t session_id() const { return session_.row.session_id; }
 
-  static ResolvedModel named(const WhoAnswers& responder) {
+  static ResolvedModel named(const ResponderChoice& responder) {
     const auto* model = std::get_if<Plug>(&responder);
     if (!model)
       throw Error("a person cannot judge a log; expected a model as --responder", ExitCode::usage);
@@ -97,7 +97,7 @@ class Model {
 };
 
 // The attempt's actions, and the number of events before its one answer.
-std::pair<std::vector<Action>, int> logged_answer(const AttemptFold& attempt) {
+std::pair<std::vector<Action>, int> logged_answer(const AttemptCollector& attempt) {
   const TaskDeclaration& task = task_named(attempt.first_plan.task);
   std::vector<Action> actions;
   for (const AttemptEvent& event : attempt.events) {
@@ -110,8 +110,8 @@ std::pair<std::vector<Action>, int> logged_answer(const AttemptFold& attempt) {
 }
 
 // The logged hand's frames under another protocol's physics.
-std::vector<FrameRow> supposed(std::vector<FrameRow> rows, const AttemptFold& attempt,
-                               const Protocol& protocol) {
+std::vector<FrameRow> changed_rows(std::vector<FrameRow> rows, const AttemptCollector& attempt,
+                                   const Protocol& protocol) {
   AttemptReplay replay(protocol, attempt);
   for (FrameRow& row : rows) {
     const ShownFrame shown = replay.advance(row);
@@ -130,16 +130,16 @@ class SessionJudge {
  public:
   SessionJudge(const LoggedSession& session, const JudgeRequest& request, const Protocol* what_if)
       : session_(session), what_if_(what_if) {
-    for (const WhoAnswers& responder : request.responders)
+    for (const ResponderChoice& responder : request.responders)
       models_.emplace_back(session, responder, request);
   }
 
-  void leave_out(const AttemptFold& attempt, std::string_view why) {
+  void leave_out(const AttemptCollector& attempt, std::string_view why) {
     judgments_.left_out.push_back(
         {session_.row.session_id, attempt.first_plan.trial_number, std::string(why)});
   }
 
-  void judge(const AttemptFold& attempt, const std::vector<FrameRow>& rows) {
+  void judge(const AttemptCollector& attempt, const std::vector<FrameRow>& rows) {
     const TrialPlan& plan = attempt.first_plan;
     const auto logged_protocol = session_.protocol_of(attempt.row);
     const Protocol& protocol = what_if_ ? *what_if_ : *logged_protocol;
@@ -153,7 +153,7 @@ class SessionJudge {
     if (!logged || !logged->n_answers()) return leave_out(attempt, is_a_number);
     const Stage stage = stage_of(protocol, plan.n_slots());
     const auto frames =
-        seen_frames(attempt, what_if_ ? supposed(rows, attempt, protocol) : rows, before);
+        seen_frames(attempt, what_if_ ? changed_rows(rows, attempt, protocol) : rows, before);
     const auto seen = frames_with_touches(frames, stage);
     if (seen.empty()) return leave_out(attempt, is_untouched);
     ScreenState screen;

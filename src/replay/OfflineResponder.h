@@ -14,8 +14,8 @@
 namespace heft {
 
 struct JudgeRequest {
-  std::vector<WhoAnswers> responders;  ///< models; at least one
-  int repeats = 100;                   ///< draws of each answer, at least 2
+  std::vector<ResponderChoice> responders;  ///< models; at least one
+  int repeats = 100;                        ///< draws of each answer, at least 2
   /// Of the models' own streams, keyed also by the model's name, the session's number and the
   /// draw.
   std::uint64_t seed = 1;

@@ -158,7 +158,8 @@ class Verifier {
            broken->damage.empty() ? "digest " + broken->recomputed : "a row as it was written");
   }
 
-  void compare_attempt(int index, const AttemptFold& attempt, const std::vector<FrameRow>& frames) {
+  void compare_attempt(int index, const AttemptCollector& attempt,
+                       const std::vector<FrameRow>& frames) {
     const SessionConfig& setup = session_.setup_of(attempt.row);
     const auto protocol = session_.protocol_of(attempt.row);
     FrameCheckOptions options;
@@ -171,8 +172,8 @@ class Verifier {
         tracker.what != TrackerWhat::source &&
         !runs_on_wall_clock(has_person(setup), tracker, view_named(setup.view.name));
     options.differ = [&](double t_s, const std::string& what, const std::string& logged,
-                         const std::string& came_out) {
-      differ(index, t_s, what, logged, came_out);
+                         const std::string& replayed) {
+      differ(index, t_s, what, logged, replayed);
     };
     FrameCheck check(*protocol, attempt, options);
     check.run(frames);
@@ -185,7 +186,7 @@ class Verifier {
   }
 
   void differ(const RowText& row, const std::string& what, const std::string& logged,
-              const std::string& came_out) {
+              const std::string& replayed) {
     double t_s = row.t_s;
     if (t_s < 0) {
       // Such a row is final when its attempt ends; an estimate belongs to no attempt.
@@ -193,16 +194,16 @@ class Verifier {
       const bool known = attempt != fold_.attempts.end();
       t_s = known ? attempt->second.row.ended_s.value_or(fold_.last_s) : fold_.last_s;
     }
-    differ(row.attempt_index, t_s, what, logged, came_out);
+    differ(row.attempt_index, t_s, what, logged, replayed);
   }
 
   void differ(int attempt_index, double t_s, const std::string& what, const std::string& logged,
-              const std::string& came_out) {
+              const std::string& replayed) {
     if (result_.first && result_.first->t_s <= t_s) return;
     const auto attempt = fold_.attempts.find(attempt_index);
     const int trial_number =
         attempt == fold_.attempts.end() ? 0 : attempt->second.first_plan.trial_number;
-    result_.first = {trial_number, t_s, what, logged, came_out};
+    result_.first = {trial_number, t_s, what, logged, replayed};
   }
 
   const LogReader& reader_;
@@ -257,7 +258,7 @@ std::optional<std::string> fault_of_sessions(const std::string& db,
       if (!found.first) continue;
       faults[i] = fmt::format("session {}, at {:.3f} s: {} is {}, but its events give {}", ids[i],
                               found.first->t_s, found.first->what, found.first->logged,
-                              found.first->came_out);
+                              found.first->replayed);
       return;
     }
   });

@@ -21,7 +21,7 @@ struct Divergence {
   int trial_number = 0;  ///< 0: none
   double t_s = 0;        ///< session time
   std::string what;      ///< table and row, or frame
-  std::string logged, came_out;
+  std::string logged, replayed;
 };
 
 struct Verification {

@@ -50,10 +50,10 @@ void CueMeter::follow_push(const DisplayedFrame& frame, std::size_t cube) {
 }
 
 void CueMeter::end_push() {
-  VisibleCues& noticed = noticed_[masses_g_.at(push_->cube)];
-  ++noticed.n_pushes;
-  noticed.lag_m += push_->lag_m;
-  noticed.largest_lag_m = std::max(noticed.largest_lag_m, push_->lag_m);
+  VisibleCues& cues = cues_[masses_g_.at(push_->cube)];
+  ++cues.n_pushes;
+  cues.lag_m += push_->lag_m;
+  cues.largest_lag_m = std::max(cues.largest_lag_m, push_->lag_m);
   push_.reset();
 }
 
@@ -61,10 +61,10 @@ void CueMeter::finish() {
   if (push_) end_push();
   for (std::size_t i = 0; i < cubes_.size(); ++i) {
     if (!cubes_[i].pushed) continue;
-    VisibleCues& noticed = noticed_[masses_g_.at(i)];
-    ++noticed.n_cubes;
-    noticed.path_m += cubes_[i].path_m;
-    noticed.end_m += (cubes_[i].last_m - cubes_[i].start_m).norm();
+    VisibleCues& cues = cues_[masses_g_.at(i)];
+    ++cues.n_cubes;
+    cues.path_m += cubes_[i].path_m;
+    cues.end_m += (cubes_[i].last_m - cubes_[i].start_m).norm();
   }
   cubes_.clear();
 }

@@ -29,8 +29,8 @@ using CuesByMass = std::map<double, VisibleCues>;
 /// Measures the frames of one attempt.
 class CueMeter {
  public:
-  /// @param noticed gets the results; must outlive this object
-  explicit CueMeter(CuesByMass& noticed) : noticed_(noticed) {}
+  /// @param cues gets the results; must outlive this object
+  explicit CueMeter(CuesByMass& cues) : cues_(cues) {}
   ~CueMeter() { finish(); }
   CueMeter(const CueMeter&) = delete;
   CueMeter& operator=(const CueMeter&) = delete;
@@ -58,7 +58,7 @@ class CueMeter {
   void end_push();
   void finish();
 
-  CuesByMass& noticed_;
+  CuesByMass& cues_;
   std::vector<double> masses_g_;
   std::optional<Push> push_;
   std::vector<Cube> cubes_;

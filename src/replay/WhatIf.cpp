@@ -31,7 +31,7 @@ struct Paths {
   CuesByMass logged, would_be;
 };
 
-void add_attempt(const AttemptFold& attempt, const std::vector<FrameRow>& frames,
+void add_attempt(const AttemptCollector& attempt, const std::vector<FrameRow>& frames,
                  const Protocol& protocol, Paths& paths) {
   AttemptReplay replay(protocol, attempt);
   CueMeter logged(paths.logged), would_be(paths.would_be);
@@ -71,8 +71,8 @@ void count(const std::vector<TrialRow>& rows,
 
 std::vector<CueDifference> cue_differences(const Paths& paths) {
   std::map<double, CueDifference> by_mass;
-  for (const auto& [mass_g, noticed] : paths.logged) by_mass[mass_g].logged = noticed;
-  for (const auto& [mass_g, noticed] : paths.would_be) by_mass[mass_g].would_be = noticed;
+  for (const auto& [mass_g, cues] : paths.logged) by_mass[mass_g].logged = cues;
+  for (const auto& [mass_g, cues] : paths.would_be) by_mass[mass_g].would_be = cues;
   std::vector<CueDifference> differences;
   for (auto& [mass_g, difference] : by_mass) {
     difference.mass_g = mass_g;

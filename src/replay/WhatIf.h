@@ -24,7 +24,7 @@ struct PathDifference {
   int n_pictures = 0;
   double clone_rms_m = 0, clone_max_m = 0;
   double cubes_rms_m = 0, cubes_max_m = 0;
-  std::vector<CueDifference> noticed;  ///< by mass
+  std::vector<CueDifference> cues;  ///< by mass
   /// If the technique's lag depends on mass, as a spring's does (μ m g / k): grams per meter of
   /// lag.
   std::optional<double> logged_g_per_m, would_be_g_per_m;

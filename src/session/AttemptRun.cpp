@@ -60,13 +60,13 @@ void AttemptRun::run(const TrialPlan& plan) {
   report_pictures();
 }
 
-bool AttemptRun::trial_goes_on() const {
+bool AttemptRun::trial_continues() const {
   return engine().next().kind == Next::Kind::act;
 }
 
 // A trial that was voided while the camera was lost ends only when pictures return: the session is
 // paused, and the next attempt could not start.
-bool AttemptRun::is_over() const {
+bool AttemptRun::has_ended() const {
   return !engine().trial_is_open() && !trouble_since_s_;
 }
 
@@ -87,7 +87,7 @@ bool AttemptRun::run_picture() {
   if (parts_.clock.is_wall()) row.simulated_s = journal_.now_s();
   show(shown, *picture, row);
   take_actions(shown);
-  if (!trial_goes_on()) return false;
+  if (!trial_continues()) return false;
   if (!parts_.texts && !parts_.responder.has_more(picture->sample.t_capture_s)) {
     control_.leave("the responder has no more actions");
     throw Error(
@@ -102,7 +102,7 @@ bool AttemptRun::run_picture() {
 std::optional<Picture> AttemptRun::next_picture() {
   for (;;) {
     control_.wait_while_held();
-    if (control_.leaving() || is_over()) return std::nullopt;
+    if (control_.leaving() || has_ended()) return std::nullopt;
     listen();
     if (auto picture = parts_.pictures.next()) {
       if (!wait_until(start_s_ + picture->sample.t_capture_s)) return std::nullopt;
@@ -114,7 +114,7 @@ std::optional<Picture> AttemptRun::next_picture() {
       throw Error("the pictures have ended but the session has not; everything so far is saved");
     }
     take_touches(control_.wait(look_up_s));
-    if (is_over()) return std::nullopt;
+    if (has_ended()) return std::nullopt;
   }
 }
 
@@ -123,7 +123,7 @@ void AttemptRun::listen() {
   if (parts_.clock.is_wall()) parts_.pictures.skip_to(parts_.clock.now_s() - start_s_);
   if (journal_.n_continued() == n_continued_) return;
   n_continued_ = journal_.n_continued();
-  parts_.pictures.listen_again();
+  parts_.pictures.restart_count();
 }
 
 // On a wall clock. @return whether the attempt continues
@@ -131,7 +131,7 @@ bool AttemptRun::wait_until(double t_s) {
   if (!parts_.clock.is_wall()) return true;
   do {
     take_touches(control_.wait(std::clamp(t_s - parts_.clock.now_s(), 0.0, longest_wait_s)));
-    if (is_over() || control_.leaving()) return false;
+    if (has_ended() || control_.leaving()) return false;
   } while (parts_.clock.now_s() < t_s);
   return true;
 }
@@ -232,11 +232,11 @@ void AttemptRun::take_touches(const std::vector<Touch>& touches) {
   if (!presented_s_) return;  // meant for the previous screen
   bool changed = false;
   for (const Touch& touch : touches) {
-    if (!trial_goes_on()) break;  // meant for a screen that has gone
+    if (!trial_continues()) break;  // meant for a screen that has gone
     changed = take_touch(touch) || changed;
   }
   control_.wait_while_held();  // an answer is shown once it is on disk
-  if (changed && trial_goes_on()) screen_.present(shown_, engine().screen());
+  if (changed && trial_continues()) screen_.present(shown_, engine().screen());
 }
 
 // @return whether the screen may have changed
@@ -269,7 +269,7 @@ void AttemptRun::take_actions(const ShownFrame& shown) {
     const double t_s = std::max(start_s_ + log_time(action.t_s), engine().last_s());
     const std::string refusal = answer(action, t_s);
     if (!refusal.empty()) refuse_model(action, refusal);
-    if (!trial_goes_on()) return;
+    if (!trial_continues()) return;
   }
 }
 

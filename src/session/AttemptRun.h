@@ -26,8 +26,8 @@ class AttemptRun {
 
  private:
   const Engine& engine() const { return parts_.engine; }
-  bool trial_goes_on() const;
-  bool is_over() const;
+  bool trial_continues() const;
+  bool has_ended() const;
 
   bool run_picture();
   std::optional<Picture> next_picture();

@@ -13,7 +13,7 @@ namespace heft {
 
 enum class ConsoleCommandKind {
   pause,  ///< pauses the session, with an open trial
-  go_on,
+  proceed,
   veto,         ///< voids the open trial, which will be presented again; text: reason
   veto_answer,  ///< voids the trial that was answered last; text: reason
   check,        ///< checks the apparatus again
@@ -57,9 +57,9 @@ class Console {
   /// Called often; draws at its own rate.
   virtual void show(const ConsoleStatus& status) = 0;
 
-  /// Asks whether to continue; the answer arrives as a command, go_on or end.
+  /// Asks whether to continue; the answer arrives as a command, proceed or end.
   /// @return false: there is no one to ask, and no answer will come
-  virtual bool ask_to_go_on(const std::string& question) = 0;
+  virtual bool ask_to_continue(const std::string& question) = 0;
 
   /// Displays a message, such as why a command was refused.
   virtual void say(const std::string& text) = 0;

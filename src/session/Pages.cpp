@@ -18,7 +18,7 @@ constexpr std::string_view after_practice_page = "after_practice";
 
 bool Pages::welcome() {
   const ScreensChosen& chosen = protocol_.screens;
-  if (chosen.consent && !gone_.consented && !agrees()) return false;
+  if (chosen.consent && !before_.consented && !agrees()) return false;
   show_once(Screen::welcome);
   if (chosen.about_you) show_once(Screen::about_you);
   return true;
@@ -39,18 +39,18 @@ bool Pages::agrees() {
 }
 
 void Pages::show_once(Screen screen) {
-  if (!gone_.pages.contains(std::string(name_of(screen)))) show_form(screen);
+  if (!before_.pages.contains(std::string(name_of(screen)))) show_form(screen);
 }
 
 void Pages::show_form(Screen screen) {
-  const TouchKind end = show(ScreenState{.screen = screen, .entries = gone_.entries});
-  if (end == TouchKind::next) gone_.pages.insert(std::string(name_of(screen)));
+  const TouchKind end = show(ScreenState{.screen = screen, .entries = before_.entries});
+  if (end == TouchKind::next) before_.pages.insert(std::string(name_of(screen)));
 }
 
 // Blocks of one task share one page. It counts as read for the blocks that began before a person
 // resumed their session, but not where a person continues a model's session.
 void Pages::instructions(const std::string& block, const Task& task) {
-  const bool left_before = gone_.pages.contains(text_page(Screen::instructions, task));
+  const bool left_before = before_.pages.contains(text_page(Screen::instructions, task));
   if (instructed_.contains(block) || (left_before && journal_.engine().has_begun(block))) return;
   const TouchKind end =
       show(ScreenState{.screen = Screen::instructions,
@@ -86,27 +86,27 @@ void Pages::how_decided() {
 void Pages::ask(const std::string& name, const std::string& after) {
   const std::string asked = (after.empty() ? "" : after + '.') + name;
   const std::string done = asked + ".done_s";
-  if (gone_.entries.contains(done) || control_.leaving()) return;
-  const ScreenTexts& texts = texts_ ? *texts_ : *asked_.texts;
+  if (before_.entries.contains(done) || control_.leaving()) return;
+  const ScreenTexts& texts = texts_ ? *texts_ : *reader_.texts;
   const auto form = texts.questionnaires.find(name);
   if (form == texts.questionnaires.end()) {
-    gone_.entries[done] = "";
+    before_.entries[done] = "";
     return journal_.emit_now(
         Note{fmt::format("the texts have no questionnaire \"{}\": not asked", name)});
   }
-  ScreenState screen{.screen = Screen::questionnaire, .entries = gone_.entries};
+  ScreenState screen{.screen = Screen::questionnaire, .entries = before_.entries};
   screen.form = name;
   screen.form_prefix = asked + '.';
   if (!texts_) journal_.add_info(asked + ".answered_by", "model");
   const TouchKind end = texts_ ? show(screen) : ask_model(form->second, screen);
   if (end != TouchKind::next) return;
-  gone_.entries[done] = fmt::format("{:.3f}", journal_.now_s());
-  journal_.add_info(done, gone_.entries[done]);
+  before_.entries[done] = fmt::format("{:.3f}", journal_.now_s());
+  journal_.add_info(done, before_.entries[done]);
 }
 
 // As show(), with the model's touches instead of a person's.
 TouchKind Pages::ask_model(const Questionnaire& form, const ScreenState& screen) {
-  QuestionnaireResponder model(*asked_.mind, form, screen);
+  QuestionnaireResponder model(*reader_.responder, form, screen);
   SessionClock& clock = journal_.clock();
   const double since_s = clock.now_s();
   while (!control_.leaving()) {
@@ -144,7 +144,7 @@ void Pages::questionnaires_at_the_end() {
 // If the last answer is vetoed meanwhile, its trial is repeated before the remaining
 // questionnaires.
 void Pages::ask_after(const std::vector<std::string>& blocks) {
-  if (!texts_ && !asked_.texts) return;
+  if (!texts_ && !reader_.texts) return;
   const int n_completed = journal_.engine().n_completed();
   for (const std::string& block : blocks) {
     const auto asked = protocol_.screens.questionnaires.find(block);
@@ -183,7 +183,7 @@ namespace {
 constexpr double reading_s = 3;  // per question
 }
 
-QuestionnaireResponder::QuestionnaireResponder(const Responder& mind, const Questionnaire& form,
+QuestionnaireResponder::QuestionnaireResponder(const Responder& responder, const Questionnaire& form,
                                                const ScreenState& screen) {
   double at_s = 0;
   const auto add = [&](TouchKind kind, const std::string& key, const std::string& value) {
@@ -200,7 +200,7 @@ QuestionnaireResponder::QuestionnaireResponder(const Responder& mind, const Ques
     const auto given = screen.entries.find(key);
     if (given != screen.entries.end() && takes_answer(question, given->second)) continue;
     at_s += reading_s;
-    if (const auto value = mind.answer(question, key); value && takes_answer(question, *value))
+    if (const auto value = responder.answer(question, key); value && takes_answer(question, *value))
       add(TouchKind::entry, key, *value);
   }
   add(TouchKind::next, "", "");

@@ -49,8 +49,8 @@ inline ResumeState resume_state(const std::vector<Event>& events,
 }
 
 /// The model that answers questionnaires in place of a person.
-struct AskedMind {
-  const Responder* mind = nullptr;
+struct SimulatedReader {
+  const Responder* responder = nullptr;
   const ScreenTexts* texts = nullptr;  ///< null: it answers none
 };
 
@@ -61,14 +61,14 @@ class Pages {
   /// @param before pages and entries of the session so far
   Pages(const Protocol& protocol, Journal& journal, SessionControl& control,
         ParticipantScreen& screen, const ScreenTexts* texts, ResumeState before,
-        AskedMind asked = {})
+        SimulatedReader reader = {})
       : protocol_(protocol),
         journal_(journal),
         control_(control),
         screen_(screen),
         texts_(texts),
-        gone_(std::move(before)),
-        asked_(asked) {}
+        before_(std::move(before)),
+        reader_(reader) {}
 
   bool has_reader() const { return texts_ != nullptr; }
 
@@ -117,15 +117,15 @@ class Pages {
   SessionControl& control_;
   ParticipantScreen& screen_;
   const ScreenTexts* texts_;
-  ResumeState gone_;
+  ResumeState before_;
   std::set<std::string> instructed_;  // blocks whose instructions were read in this run
-  AskedMind asked_;
+  SimulatedReader reader_;
 };
 
 class QuestionnaireResponder {
  public:
   /// @param screen the questionnaire's; its existing entries are not answered again
-  QuestionnaireResponder(const Responder& mind, const Questionnaire& form,
+  QuestionnaireResponder(const Responder& responder, const Questionnaire& form,
                          const ScreenState& screen);
 
   /// New touches until a time after the page appeared: an answer or none every few seconds, then

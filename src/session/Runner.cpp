@@ -41,11 +41,11 @@ void Runner::check_apparatus() {
     const SessionControl::Answer answer = ask_whether_failures_matter();
     if (answer == SessionControl::Answer::check) continue;
     const bool asked = answer != SessionControl::Answer::no_one_there;
-    if (!asked && !options_.go_on_unchecked) refuse_unchecked(failed);
+    if (!asked && !options_.ignore_failed_checks) refuse_unchecked(failed);
     const std::string who = asked ? "the experimenter" : "without an experimenter the session";
-    const bool goes_on = answer != SessionControl::Answer::leave;
+    const bool continues = answer != SessionControl::Answer::leave;
     return journal_.emit_now(Note{
-        fmt::format("failed check: {}; {} {}", failed, who, goes_on ? "continues" : "leaves")});
+        fmt::format("failed check: {}; {} {}", failed, who, continues ? "continues" : "leaves")});
   }
 }
 
@@ -75,7 +75,7 @@ std::string Runner::failed_checks() {
 
 SessionControl::Answer Runner::ask_whether_failures_matter() {
   const std::string shown = screen_.shown() ? "" : "; the participant has seen nothing yet";
-  return control_.ask_to_go_on("continue? y continues, n leaves, r checks again" + shown);
+  return control_.ask_to_continue("continue? y continues, n leaves, r checks again" + shown);
 }
 
 void Runner::refuse_unchecked(const std::string& failed) {
@@ -83,7 +83,8 @@ void Runner::refuse_unchecked(const std::string& failed) {
   control_.leave("failed check: " + failed);
   throw Error(fmt::format(
       "the check of the apparatus failed ({}), and without a terminal there is no one to "
-      "ask. The participant saw no trial. Fix it and continue with heft resume, or add --go-on to "
+      "ask. The participant saw no trial. Fix it and continue with heft resume, or add "
+      "--ignore-failed-checks to "
       "continue anyway",
       failed));
 }
@@ -169,12 +170,12 @@ void Runner::show_demonstration(const DemonstrationBlock& block) {
 }
 
 void Runner::run_trial(const TrialPlan& plan) {
-  if (const auto survivor = parts_.engine.survivor();
-      survivor && survivor != noted_last_staircase_) {
-    noted_last_staircase_ = survivor;
+  if (const auto unfinished_staircase = parts_.engine.unfinished_staircase();
+      unfinished_staircase && unfinished_staircase != noted_last_staircase_) {
+    noted_last_staircase_ = unfinished_staircase;
     journal_.emit_now(
-        Note{fmt::format("staircase \"{}\" is the last one and runs alone from trial {}", *survivor,
-                         plan.trial_number)});
+        Note{fmt::format("staircase \"{}\" is the last one and runs alone from trial {}",
+                         *unfinished_staircase, plan.trial_number)});
   }
   if (pages_.has_reader()) pages_.instructions(plan.block, plan.task);
   fade_out();  // with the feedback of practice

@@ -97,7 +97,7 @@ void refuse_changed_log(const LogReader& reader, const LoggedSession& session) {
     why = *fault;
   else if (const Verification found = verify_rows(reader, session.row.session_id); found.first)
     why = fmt::format("{} is {}, but its events give {}", found.first->what, found.first->logged,
-                      found.first->came_out);
+                      found.first->replayed);
   if (!why.empty())
     throw Error(
         fmt::format("session {} in {} cannot be continued: the log was changed; {}. "

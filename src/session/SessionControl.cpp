@@ -145,8 +145,8 @@ void SessionControl::leave(const std::string& why) {
   save();
 }
 
-SessionControl::Answer SessionControl::ask_to_go_on(const std::string& question) {
-  if (!console_ || !console_->ask_to_go_on(question)) return Answer::no_one_there;
+SessionControl::Answer SessionControl::ask_to_continue(const std::string& question) {
+  if (!console_ || !console_->ask_to_continue(question)) return Answer::no_one_there;
   answer_.reset();
   asking_ = true;
   while (!answer_ && !leaving()) {
@@ -229,8 +229,8 @@ void SessionControl::obey(const ConsoleCommand& command) {
   switch (command.kind) {
     case ConsoleCommandKind::pause:
       return pause();
-    case ConsoleCommandKind::go_on:
-      return go_on();
+    case ConsoleCommandKind::proceed:
+      return proceed();
     case ConsoleCommandKind::veto:
       return veto(command.text);
     case ConsoleCommandKind::veto_answer:
@@ -271,9 +271,9 @@ void SessionControl::confirm(const std::string& done) {
   console_->say(journal_.busy() ? done + "; not saved yet" : done);
 }
 
-void SessionControl::go_on() {
+void SessionControl::proceed() {
   if (asking_) {
-    answer_ = Answer::go_on;
+    answer_ = Answer::proceed;
     return;
   }
   if (!holding_) return console_->say("the session is not held; it continues automatically");

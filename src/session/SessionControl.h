@@ -37,7 +37,7 @@ struct RunnerOptions {
   std::atomic<bool>* suspend = nullptr;
   std::function<void()> stop_process = {};
   /// Continue after a failed check if there is no experimenter to ask.
-  bool go_on_unchecked = false;
+  bool ignore_failed_checks = false;
 };
 
 /// The participant's screen. Everything is presented through it, so that each text is logged with
@@ -120,13 +120,13 @@ class SessionControl {
 
   /// The experimenter's answer.
   enum class Answer {
-    go_on,
+    proceed,
     leave,  ///< the session, which may also be left by other means
     check,  ///< again, then repeat the question
     no_one_there
   };
   /// Asks the experimenter whether to continue, and waits for the answer.
-  Answer ask_to_go_on(const std::string& question);
+  Answer ask_to_continue(const std::string& question);
 
   /// Sets the check of the apparatus that the experimenter can request.
   void on_check(std::function<void()> check) { check_ = std::move(check); }
@@ -159,7 +159,7 @@ class SessionControl {
   void veto_answer(const std::string& why);
   void check();
   void unblind();
-  void go_on();
+  void proceed();
   void pause();
   void confirm(const std::string& done);
   void keep(const std::vector<Touch>& touches);

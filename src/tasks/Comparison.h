@@ -148,7 +148,9 @@ struct Comparison {
     TrialPlan plan(const TrialKey& key) const override;
     bool finished() const override;
     void complete(const TrialRow& row, Changes& changes) override;
-    std::optional<std::string> survivor() const override { return staircases_.survivor(); }
+    std::optional<std::string> unfinished_staircase() const override {
+      return staircases_.unfinished_staircase();
+    }
 
    private:
     std::optional<double> catch_reference_g(std::uint64_t seed) const;

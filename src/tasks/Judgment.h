@@ -168,7 +168,9 @@ struct Judgment {
       return n_completed_ >= order_.size() && staircases_.finished();
     }
     void complete(const TrialRow& row, Changes& changes) override;
-    std::optional<std::string> survivor() const override { return staircases_.survivor(); }
+    std::optional<std::string> unfinished_staircase() const override {
+      return staircases_.unfinished_staircase();
+    }
 
    private:
     TrialPlan plan_of_staircase(const TrialKey& key) const;

@@ -39,7 +39,9 @@ class PracticedRun : public TaskRun {
   TrialPlan plan(const TrialKey& key) const override;
   bool finished() const override { return !is_practicing() && counted_->finished(); }
   void complete(const TrialRow& row, Changes& changes) override;
-  std::optional<std::string> survivor() const override { return counted_->survivor(); }
+  std::optional<std::string> unfinished_staircase() const override {
+    return counted_->unfinished_staircase();
+  }
   std::optional<bool> feedback() const override { return feedback_; }
 
  private:

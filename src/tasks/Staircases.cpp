@@ -117,7 +117,7 @@ void RunningStaircases::respond(const TrialRow& row, const Response& response, C
   previous_ = static_cast<std::size_t>(found - staircases_.begin());
 }
 
-std::optional<std::string> RunningStaircases::survivor() const {
+std::optional<std::string> RunningStaircases::unfinished_staircase() const {
   if (staircases_.size() < 2 || std::ranges::count_if(staircases_, is_unfinished) != 1)
     return std::nullopt;
   return std::ranges::find_if(staircases_, is_unfinished)->name();

@@ -69,7 +69,7 @@ class RunningStaircases {
   /// Folds the response to a completed trial, whose plan names its staircase.
   void respond(const TrialRow& row, const Response& response, Changes& changes);
   /// The last unfinished one of several; none while more are running.
-  std::optional<std::string> survivor() const;
+  std::optional<std::string> unfinished_staircase() const;
 
  private:
   std::vector<Procedure> staircases_;  // in the order of the block's

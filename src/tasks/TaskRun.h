@@ -113,7 +113,7 @@ class TaskRun {
   /// Folds a completed trial and adds its reversals and estimates to `changes`.
   virtual void complete(const TrialRow& row, Changes& changes) = 0;
   /// The last unfinished one of several interleaved staircases; none while more are running.
-  virtual std::optional<std::string> survivor() const { return std::nullopt; }
+  virtual std::optional<std::string> unfinished_staircase() const { return std::nullopt; }
   /// Whether the last completed trial's answer was correct, if the participant sees it.
   virtual std::optional<bool> feedback() const { return std::nullopt; }
 };

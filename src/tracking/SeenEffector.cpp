@@ -19,7 +19,7 @@ Pose normalized(Pose pose) {
   return pose;
 }
 
-bool SeenEffector::tells_of(double then_s) const {
+bool SeenEffector::is_recent_at(double then_s) const {
   return then_s - t_s <= longest_gap_s;
 }
 
@@ -31,7 +31,7 @@ Pose SeenEffector::expected_at(double then_s, const Velocity& by) const {
 }
 
 bool SeenEffector::could_be_at(const Pose& pose, double then_s) const {
-  if (!tells_of(then_s)) return false;
+  if (!is_recent_at(then_s)) return false;
   const double dt_s = then_s - t_s;
   const double way_m = (pose.position_m - board_from_effector.position_m).norm();
   const double turn_rad = pose.orientation.angularDistance(board_from_effector.orientation);
@@ -44,7 +44,7 @@ Velocity SeenEffector::carried_on(const Velocity& mean, double by_pictures) cons
           mean.angular_rad_s + by_pictures * (mean.angular_rad_s - velocity.angular_rad_s)};
 }
 
-SeenEffector SeenEffector::moved_on(double then_s, double then_own_row_s, const Pose& pose,
+SeenEffector SeenEffector::moved_to(double then_s, double then_own_row_s, const Pose& pose,
                                     int n_intervals) const {
   const Velocity mean = mean_velocity(board_from_effector, pose, n_intervals * (then_s - t_s));
   return {then_s, then_own_row_s, pose, mean, carried_on(mean, 1), n_poses + 1};

@@ -15,7 +15,7 @@ struct SeenEffector {
   int n_poses = 1;      ///< consecutive ones, including this one
 
   /// Whether it was seen recently enough for a prediction.
-  bool tells_of(double then_s) const;
+  bool is_recent_at(double then_s) const;
 
   /// @param by velocity, or next, which is more accurate for a hand but amplifies errors of poses
   Pose expected_at(double then_s, const Velocity& by) const;
@@ -29,7 +29,7 @@ struct SeenEffector {
 
   /// The state after the next pose, which is at then_s.
   /// @param n_intervals so many times the time that has passed by the clock
-  SeenEffector moved_on(double then_s, double then_own_row_s, const Pose& pose,
+  SeenEffector moved_to(double then_s, double then_own_row_s, const Pose& pose,
                         int n_intervals) const;
 };
 

@@ -29,7 +29,7 @@ constexpr BiasPrior unknown_bias{0, 0.1};
 constexpr double least_bias_sd_px = 0.006;
 // The effector's edges have another light and slant than the board's.
 constexpr double bias_differs_px = 0.005, bias_differs_relative = 0.15;
-constexpr int tags_that_tell_bias = 4, tags_that_tell_focus = 8;
+constexpr int tags_for_bias = 4, tags_for_focus = 8;
 
 // After so many pictures without the effector it is out of view, and only half of each picture is
 // searched for it.
@@ -54,7 +54,7 @@ constexpr double sure_quality = 0.5;
 // sRGB. Most cameras' is, and then the board's estimated bias is noise, which would move a single
 // tag by tenths of a millimeter in depth.
 BiasPrior bias_of_effector(const BodyFit& board) {
-  if (board.n_tags < tags_that_tell_bias) return unknown_bias;
+  if (board.n_tags < tags_for_bias) return unknown_bias;
   const double sd_px = std::hypot(board.bias_sd_px, least_bias_sd_px);
   const double mean_px = board.bias_px * shrinkage_factor(board.bias_px / sd_px);
   return {mean_px, bias_differs_px + bias_differs_relative * std::abs(mean_px)};
@@ -143,8 +143,8 @@ std::optional<BodyFit> Tracker::learn_tag_size(std::optional<BodyFit> board) {
   board_.resize(with_scaled_tags(board_of_file_, 1 + tag_size_.excess()));
   tone_ = ToneLearner(response_of(calibrated_).bend());
   expect_picture();
-  const auto again = board_.find_again(gray_, board->camera_from_body,
-                                       {.tags = tags_that_tell_bias}, unknown_bias, result_.times);
+  const auto again = board_.find_again(gray_, board->camera_from_body, {.tags = tags_for_bias},
+                                       unknown_bias, result_.times);
   return again ? again : board;
 }
 
@@ -152,12 +152,12 @@ std::optional<BodyFit> Tracker::learn_tag_size(std::optional<BodyFit> board) {
 std::optional<BodyFit> Tracker::learn_tone(std::optional<BodyFit> board) {
   constexpr int most_rounds = 4;
   for (int round = 0; board && round < most_rounds; ++round) {
-    if (board->n_tags < tags_that_tell_bias || !settings_.remove_bias) break;
+    if (board->n_tags < tags_for_bias || !settings_.remove_bias) break;
     const bool moves = tone_.learn(board_.tone(), board->bias_px, board->bias_sd_px);
     expect_picture();
     if (!moves) break;
-    const auto again = board_.find_again(
-        gray_, board->camera_from_body, {.tags = tags_that_tell_bias}, unknown_bias, result_.times);
+    const auto again = board_.find_again(gray_, board->camera_from_body, {.tags = tags_for_bias},
+                                         unknown_bias, result_.times);
     if (!again) break;
     board = again;
   }
@@ -174,11 +174,11 @@ void Tracker::refocus() {
 
 // The board's perspective gives the focal length. Its edges are measured again with a changed one.
 std::optional<BodyFit> Tracker::learn_focus(std::optional<BodyFit> board, double t_s) {
-  if (!board || board->n_tags < tags_that_tell_focus || !settings_.refine_edges) return board;
+  if (!board || board->n_tags < tags_for_focus || !settings_.refine_edges) return board;
   if (!focus_.learn(board_.focal_error(*board, unknown_bias), t_s)) return board;
   refocus();
-  const auto again = board_.find_again(gray_, board->camera_from_body,
-                                       {.tags = tags_that_tell_bias}, unknown_bias, result_.times);
+  const auto again = board_.find_again(gray_, board->camera_from_body, {.tags = tags_for_bias},
+                                       unknown_bias, result_.times);
   return again ? again : board;
 }
 
@@ -189,7 +189,7 @@ std::optional<BodyFit> Tracker::find_effector(const BodyFit& seen_board, double 
     return normalized(seen_board.camera_from_body * seen_->expected_at(t_s + seen_->own_row_s, by));
   };
   std::optional<Pose>& expected = known.expected;
-  if (seen_ && seen_->tells_of(t_s)) expected = expected_by(seen_->velocity);
+  if (seen_ && seen_->is_recent_at(t_s)) expected = expected_by(seen_->velocity);
   if (settings_.region_of_interest && expected && !board_family_tags_) {
     // A continued motion is found by edges; cells confirm that they are its tags.
     if (settings_.refine_edges && n_unseen_ == 0) {
@@ -303,7 +303,7 @@ void Tracker::take_effector(const BodyFit& fit, double t_s) {
   result_.jump = !seen_ || !seen_->could_be_at(pose, then_s);
   n_unseen_ = 0;
   const bool moves_on = !result_.jump && then_s > seen_->t_s;
-  seen_ = moves_on ? seen_->moved_on(then_s, own_s, pose, n_intervals_)
+  seen_ = moves_on ? seen_->moved_to(then_s, own_s, pose, n_intervals_)
                    : SeenEffector{then_s, own_s, pose};
   result_.board_from_effector = pose;
   result_.n_effector_tags = fit.n_tags;

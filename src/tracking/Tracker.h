@@ -77,7 +77,7 @@ class Tracker {
   /// pictures since.
   const ToneCurve& tone() const { return tone_.curve(); }
   /// Whether pictures have contributed to it; the result may be sRGB.
-  bool tone_is_told() const { return tone_.is_told(); }
+  bool has_tone_evidence() const { return tone_.has_evidence(); }
 
   /// Discards the last poses: the next picture does not continue them. Keeps the tone curve.
   void reset();

@@ -24,26 +24,26 @@ Fold folded(std::span<const SessionData> sessions) {
 }
 
 inline std::vector<ParticipantRow> participants_of(std::span<const SessionData> sessions) {
-  return folded<ParticipantsFold>(sessions).result();
+  return folded<ParticipantsCollector>(sessions).result();
 }
 inline std::optional<AnalysisPlan> declared_plan(std::span<const SessionData> sessions) {
-  return folded<PlanFold>(sessions).result();
+  return folded<PlanCollector>(sessions).result();
 }
 inline ParticipantFlow flow_of(std::span<const SessionData> sessions,
                                std::span<const ParticipantRow> participants) {
-  return folded<FlowFold>(sessions).result(participants);
+  return folded<FlowCollector>(sessions).result(participants);
 }
 inline Quality quality_of(std::span<const SessionData> sessions) {
-  return folded<QualityFold>(sessions).result();
+  return folded<QualityCollector>(sessions).result();
 }
 inline std::vector<ProtocolChoice> protocol_choices(const std::vector<SessionData>& sessions) {
-  return folded<ChoicesFold>(sessions).result();
+  return folded<ChoicesCollector>(sessions).result();
 }
 inline std::deque<StaircaseResult> staircase_results(std::span<const SessionData> sessions) {
-  return folded<StaircaseFold>(sessions).results();
+  return folded<StaircaseCollector>(sessions).results();
 }
 inline std::vector<ReferenceJnd> jnd_of(std::span<const SessionData> sessions) {
-  return folded<StaircaseFold>(sessions).jnds();
+  return folded<StaircaseCollector>(sessions).jnds();
 }
 inline std::vector<ReferenceSensitivity> sensitivities_of(std::span<const SessionData> sessions) {
   return sensitivities_of(folded<ComparisonTrials>(sessions));

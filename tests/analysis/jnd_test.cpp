@@ -242,7 +242,7 @@ TEST(Jnd, ConstantStimuliAreNoStaircaseThatLacksAJnd) {
   EXPECT_EQ(jnds[0].n_without_estimate, 0);
   EXPECT_EQ(jnds[0].overall.mean, 100);
   EXPECT_EQ(staircase_results({&data, 1}).size(), 1);
-  const auto sessions = folded<TracksFold>({&data, 1}).result();
+  const auto sessions = folded<TracksCollector>({&data, 1}).result();
   ASSERT_EQ(sessions.at(0).tracks.size(), 1u);
   EXPECT_EQ(sessions[0].tracks[0].staircase, "15g");
 }

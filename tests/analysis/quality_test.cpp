@@ -14,7 +14,7 @@ namespace {
 using namespace made_up;
 
 int counted(const Quality& quality, std::string_view what) {
-  return std::ranges::find(quality.counted, what, &CountedRow::what)->n;
+  return std::ranges::find(quality.counted, what, &DataQualityRow::what)->n;
 }
 
 Attempt& add_timed(SessionData& data, double level_g, double answered_s, bool touched = true) {

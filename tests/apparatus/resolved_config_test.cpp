@@ -28,7 +28,7 @@ Protocol quick() {
   return load_protocol(root + "/protocols/quick.toml");
 }
 
-SessionOptions options_with(const WhoAnswers& responder, std::optional<Plug> tracker = {},
+SessionOptions options_with(const ResponderChoice& responder, std::optional<Plug> tracker = {},
                             std::optional<Plug> view = {}) {
   SessionOptions options;
   options.responder = responder;
@@ -189,8 +189,9 @@ TEST(Resolve, ARestingHandIsRefusedWhereAnswersNeedContact) {
 TEST(Resolve, SaysWhichPlugsMayMeet) {
   const TemporaryFolder folder;
   const Plug film{"video", folder.file("film.avi")};
-  for (const WhoAnswers& who : {WhoAnswers(Person{}), WhoAnswers(Plug{"simulated"}),
-                                WhoAnswers(Plug{"coin"}), WhoAnswers(Plug{"always_no"})})
+  for (const ResponderChoice& who :
+       {ResponderChoice(Person{}), ResponderChoice(Plug{"simulated"}),
+        ResponderChoice(Plug{"coin"}), ResponderChoice(Plug{"always_no"})})
     for (const char* tracker : {"hand", "synthetic", "mouse"})
       for (const Plug& view : {Plug{"headless"}, Plug{"window"}, film}) {
         const bool person = std::holds_alternative<Person>(who);
@@ -259,7 +260,7 @@ TEST(ResolveAgain, AFilmIsWrittenBesideTheOneFromBefore) {
 SessionOptions any_options() {
   const auto chance = [] { return *rc::gen::arbitrary<bool>(); };
   SessionOptions options;
-  options.responder = *rc::gen::element<WhoAnswers>(Person{}, Plug{"simulated"}, Plug{"coin"});
+  options.responder = *rc::gen::element<ResponderChoice>(Person{}, Plug{"simulated"}, Plug{"coin"});
   const bool person = std::holds_alternative<Person>(*options.responder);
   options.tracker = *rc::gen::element(Plug{"hand"}, Plug{"synthetic"});
   if (!person)

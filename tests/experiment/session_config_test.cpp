@@ -17,8 +17,8 @@ void expect_both_ways(const char* text, const Value& value) {
 TEST(SessionConfig, ValuesConvertToTextAndBack) {
   expect_both_ways("hand", Plug{"hand"});
   expect_both_ways("video:/a/b:c.avi", Plug{"video", "/a/b:c.avi"});
-  expect_both_ways("human", WhoAnswers(Person{}));
-  expect_both_ways("coin:/p.toml", WhoAnswers(Plug{"coin", "/p.toml"}));
+  expect_both_ways("human", ResponderChoice(Person{}));
+  expect_both_ways("coin:/p.toml", ResponderChoice(Plug{"coin", "/p.toml"}));
   expect_both_ways("1", std::optional(NamedDisplay{1}));
   expect_both_ways("0 DELL U2412", std::optional(NamedDisplay{0, "DELL U2412"}));
   expect_both_ways("", std::optional<NamedDisplay>());
@@ -42,7 +42,7 @@ TEST(SessionConfig, InvalidTextIsRefused) {
 }
 
 TEST(SessionConfig, PlugKeepsContentsOfItsFile) {
-  WhoAnswers responder = Plug{"coin", "/p.toml", "p = 0.5"};
+  ResponderChoice responder = Plug{"coin", "/p.toml", "p = 0.5"};
   EXPECT_TRUE(from_text("coin:/p.toml", responder));
   EXPECT_EQ(std::get<Plug>(responder).text, "p = 0.5");
 }

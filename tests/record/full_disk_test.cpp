@@ -162,7 +162,7 @@ TEST(FullDisk, OlderLogIsUpgradedWithFreeSpace) {
     const std::string folder = std::filesystem::path(file).parent_path();
     ASSERT_EQ(::mount("tmpfs", folder.c_str(), "tmpfs", MS_REMOUNT, "size=2m"), 0);
     EXPECT_EQ(LogReader(file).sessions().size(), 3u);
-    EXPECT_EQ(version_of(file), todays_log_version);
+    EXPECT_EQ(version_of(file), current_log_version);
     EXPECT_EQ(version_of(file + ".v5"), 5);
     EXPECT_FALSE(std::filesystem::exists(file + ".v5.part"));
     EXPECT_TRUE(check_integrity(file).empty());

@@ -78,7 +78,7 @@ class SchemaRules : public testing::Test {
 
 TEST_F(SchemaRules, FileHasApplicationId) {
   EXPECT_EQ(database_->execAndGet("PRAGMA application_id").getInt(), 0x48656674);
-  EXPECT_EQ(database_->execAndGet("PRAGMA user_version").getInt(), todays_log_version);
+  EXPECT_EQ(database_->execAndGet("PRAGMA user_version").getInt(), current_log_version);
   EXPECT_EQ(database_->execAndGet("PRAGMA journal_mode").getString(), "wal");
 }
 

@@ -115,7 +115,7 @@ TEST_F(Replay, LogsOfOlderVersionsAreVerified) {
       const Verification found = verify_session(reader, session.session_id, [](double) {});
       EXPECT_FALSE(found.first) << "session " << session.session_id << ": " << found.first->what
                                 << ", logged " << found.first->logged << ", came out "
-                                << found.first->came_out;
+                                << found.first->replayed;
       // Differences that are only measured are not demanded.
       EXPECT_LE(found.largest_difference_m, 1e-6) << "session " << session.session_id;
       if (found.n_other_edition == 0) {
@@ -133,7 +133,7 @@ TEST_F(Replay, AColumnThatTheUpgradeAddedMustHoldWhatItWrites) {
   const Verification found = verify_session(LogReader(path.string()), 1, [](double) {});
   ASSERT_TRUE(found.first);
   EXPECT_EQ(found.first->what, "answer: answer 1, value");
-  EXPECT_EQ(found.first->came_out, "NULL");
+  EXPECT_EQ(found.first->replayed, "NULL");
 }
 
 TEST_F(Replay, AnswersLaterThanTheNextPicturesAreReplayedExactly) {
@@ -143,7 +143,7 @@ TEST_F(Replay, AnswersLaterThanTheNextPicturesAreReplayedExactly) {
     EXPECT_GT(found.n_frames, 100);
     EXPECT_EQ(found.n_other_build, 0);
     EXPECT_FALSE(found.first) << delay_s << " s: " << found.first->what << ", logged "
-                              << found.first->logged << ", came out " << found.first->came_out;
+                              << found.first->logged << ", came out " << found.first->replayed;
     TearDown();
   }
 }
@@ -156,7 +156,7 @@ TEST_F(Replay, APredictionToWhenItIsSeenIsReplayedExactly) {
   EXPECT_GT(found.n_frames, 100);
   EXPECT_EQ(found.n_other_build, 0);
   EXPECT_FALSE(found.first) << found.first->what << ", logged " << found.first->logged
-                            << ", came out " << found.first->came_out;
+                            << ", came out " << found.first->replayed;
   for (const FrameRow& frame : frames)
     EXPECT_EQ(frame.effector.position_m, responder.hand(frame.trial_t_s).pose.position_m);
 }

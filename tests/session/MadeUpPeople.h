@@ -79,7 +79,7 @@ class MadeUpConsole : public Console {
     shown.push_back(status);
     if (on_show) on_show(status);
   }
-  bool ask_to_go_on(const std::string& question) override {
+  bool ask_to_continue(const std::string& question) override {
     asked.push_back(question);
     if (answer) commands.push_back({*answer, {}});
     return answer.has_value();

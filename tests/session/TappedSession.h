@@ -72,7 +72,7 @@ struct TappedSession {
   std::unique_ptr<Responder> hand = responder_named("simulated").make({});
   HandPictures pictures{*hand, protocol->display_rate_hz};
   TappedScreen screen;
-  ResumeState before;  ///< of a session that goes on
+  ResumeState before;  ///< of a session that continues
 };
 
 }  // namespace heft::testing

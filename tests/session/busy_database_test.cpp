@@ -153,12 +153,12 @@ struct BusySession {
   bool resume() {
     Engine resumed(protocol, 7);
     for (const RecordedEvent& recorded : recorded_events()) resumed.apply(recorded.event);
-    const bool goes_on = resumed.next().kind != Next::Kind::over;
+    const bool continues = resumed.next().kind != Next::Kind::over;
     if (resumed.trial_is_open())
       add(resumed, {resumed.last_s(), TrialVoided{std::string(void_interrupted)}});
-    if (goes_on) add(resumed, {resumed.last_s(), SessionResumed{"", 0}});
+    if (continues) add(resumed, {resumed.last_s(), SessionResumed{"", 0}});
     engine = std::move(resumed);
-    return goes_on;
+    return continues;
   }
   void add(Engine& resumed, const Event& event) {
     const Changes changes = resumed.apply(event);
@@ -304,7 +304,7 @@ TEST(LockedDatabase, CanBeHeldByTheExperimenterUntilAfterTheLock) {
       session.console.commands.push_back({ConsoleCommandKind::pause, {}});
       ++n_held;
     } else if (n_held > 0 && status.paused && !status.paused_itself && ++n_held == 60) {
-      session.console.commands.push_back({ConsoleCommandKind::go_on, {}});
+      session.console.commands.push_back({ConsoleCommandKind::proceed, {}});
     }
   };
   EXPECT_EQ(session.run(), RunEnd::finished);
@@ -365,7 +365,7 @@ class RandomMoments {
   void intervene(const ConsoleStatus& status) {
     auto& commands = session_.console.commands;
     if (status.paused && !status.paused_itself && random_.coin(0.3))
-      return commands.push_back({ConsoleCommandKind::go_on, {}});
+      return commands.push_back({ConsoleCommandKind::proceed, {}});
     if (n_interventions_ >= 8 || !random_.coin(is_about_the_lock(status) ? 0.1 : 0.003)) return;
     ++n_interventions_;
     constexpr std::array kinds{ConsoleCommandKind::veto, ConsoleCommandKind::veto_answer,

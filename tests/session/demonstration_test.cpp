@@ -176,7 +176,7 @@ Apparatus demonstrated_with(SessionOptions options, const Protocol& protocol) {
   return equipment.parts(engine, sink).apparatus;
 }
 
-SessionOptions options_of(const WhoAnswers& responder, const std::string& tracker) {
+SessionOptions options_of(const ResponderChoice& responder, const std::string& tracker) {
   SessionOptions options;
   options.responder = responder;
   options.tracker = Plug{tracker};

@@ -274,7 +274,7 @@ struct ScriptedConsole : MadeUpConsole {
 };
 
 TEST(Experimenter, HoldsTheSessionAndLetsItGoOn) {
-  ScriptedConsole console({{ConsoleCommandKind::pause, {}}, {ConsoleCommandKind::go_on, {}}});
+  ScriptedConsole console({{ConsoleCommandKind::pause, {}}, {ConsoleCommandKind::proceed, {}}});
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&console), RunEnd::finished);
   EXPECT_EQ(session.events(event_kind<SessionPaused>).at(0).as<SessionPaused>()->reason,
@@ -306,7 +306,7 @@ TEST(Experimenter, SeesWhichPageItIsAndThatOnlyTrialsAreTracked) {
 }
 
 TEST(Experimenter, SeesNothingTrackedWhileTheSessionIsHeld) {
-  ScriptedConsole console({{ConsoleCommandKind::pause, {}}, {ConsoleCommandKind::go_on, {}}});
+  ScriptedConsole console({{ConsoleCommandKind::pause, {}}, {ConsoleCommandKind::proceed, {}}});
   Session session(quick_protocol());
   session.run(&console);
   const auto held = std::ranges::find_if(
@@ -339,7 +339,7 @@ class FailedCheck : public ::testing::Test {
     OutOfOrder pictures(session.pictures, n_failures);
     RunnerOptions options;
     options.console = &console;
-    options.go_on_unchecked = go_on_unchecked;
+    options.ignore_failed_checks = ignore_failed_checks;
     return Runner({*session.protocol, session.engine, session.sink, pictures, *session.hand,
                    session.screen, session.clock, true, &session.texts},
                   options)
@@ -355,11 +355,11 @@ class FailedCheck : public ::testing::Test {
   Session session{quick_protocol()};
   MadeUpConsole console;
   int n_failures = 1000;
-  bool go_on_unchecked = false;
+  bool ignore_failed_checks = false;
 };
 
 TEST_F(FailedCheck, IsAskedAboutAndTheSessionBeginsWhenTheExperimenterSaysSo) {
-  console.answer = ConsoleCommandKind::go_on;
+  console.answer = ConsoleCommandKind::proceed;
   console.on_show = [&](const ConsoleStatus& status) {
     EXPECT_EQ(status.screen.has_value(), !session.screen.screens.empty());
   };
@@ -385,7 +385,7 @@ TEST_F(FailedCheck, EndsTheSessionToBeResumedWhereNobodyCanBeAsked) {
     ADD_FAILURE() << "it went on";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(), HasSubstr("board"));
-    EXPECT_THAT(error.what(), HasSubstr("--go-on"));
+    EXPECT_THAT(error.what(), HasSubstr("--ignore-failed-checks"));
   }
   EXPECT_THAT(console.said, Contains(HasSubstr("FAILED   board: not seen")));
   EXPECT_THAT(session.events(event_kind<CheckResult>), ::testing::SizeIs(2));
@@ -394,7 +394,7 @@ TEST_F(FailedCheck, EndsTheSessionToBeResumedWhereNobodyCanBeAsked) {
 }
 
 TEST_F(FailedCheck, IsGoneOverWhereNobodyCanBeAskedAndThatWasAskedFor) {
-  go_on_unchecked = true;
+  ignore_failed_checks = true;
   EXPECT_EQ(run(), RunEnd::finished);
   EXPECT_THAT(notes(),
               ElementsAre("failed check: board; without an experimenter the session continues"));
@@ -411,7 +411,7 @@ TEST_F(FailedCheck, IsMadeAgainUntilItSucceeds) {
 
 TEST_F(FailedCheck, CanBeLeftByClosingTheWindow) {
   class Silent : public MadeUpConsole {
-    bool ask_to_go_on(const std::string&) override { return true; }
+    bool ask_to_continue(const std::string&) override { return true; }
   } silent;
   Session other(quick_protocol(), [](const ViewFrame&, const ScreenState&) {
     return std::vector{touch(TouchKind::close)};
@@ -482,7 +482,7 @@ TEST(Person, WhoDeclinesByMistakeCanTakeItBack) {
 }
 
 // The same session once more, after it was left.
-RunEnd go_on(Session& session, RecordedSession& sink) {
+RunEnd continue_session(Session& session, RecordedSession& sink) {
   std::vector<Event> events;
   for (const RecordedEntry& entry : session.sink.entries())
     if (const auto* recorded = std::get_if<RecordedEvent>(&entry))
@@ -511,7 +511,7 @@ TEST(Person, WhoComesBackMeetsNoPageAgainThatTheyWereThroughWith) {
   EXPECT_THAT(pages_of(session.sink), ElementsAre("consent", "welcome", "about_you"));
 
   RecordedSession sink{SessionHeader{}};
-  EXPECT_EQ(go_on(session, sink), RunEnd::finished);
+  EXPECT_EQ(continue_session(session, sink), RunEnd::finished);
   EXPECT_EQ(pages_of(sink).at(0), "about_you");
   EXPECT_EQ(pages_of(sink).at(1), "demonstration");
   EXPECT_THAT(session.screen.screens.at(0).entries, ElementsAre(std::pair("age", "25_34")));
@@ -532,7 +532,7 @@ TEST(Person, WhoComesBackInTheMiddleOfABlockIsNotInstructedAgain) {
   running = &session;
   EXPECT_EQ(session.run(), RunEnd::stopped);
   RecordedSession sink{SessionHeader{}};
-  EXPECT_EQ(go_on(session, sink), RunEnd::finished);
+  EXPECT_EQ(continue_session(session, sink), RunEnd::finished);
   EXPECT_THAT(pages_of(sink), ElementsAre("trial_comparison", "instructions_comparison",
                                           "trial_comparison", "thanks"))
       << "of the next block they are";
@@ -550,7 +550,7 @@ TEST(Person, WhoLeavesAfterPracticeIsToldAgainThatItIsOver) {
   EXPECT_EQ(session.run(), RunEnd::stopped);
   EXPECT_EQ(session.engine.n_completed(), 2);
   RecordedSession sink{SessionHeader{}};
-  EXPECT_EQ(go_on(session, sink), RunEnd::finished);
+  EXPECT_EQ(continue_session(session, sink), RunEnd::finished);
   EXPECT_THAT(pages_of(sink),
               ElementsAre("instructions_after_practice", "trial_sorting", "thanks"));
 }
@@ -564,7 +564,7 @@ TEST(Person, ReadsInstructionsAgainThatTheyWereInTheMiddleOf) {
   });
   EXPECT_EQ(session.run(), RunEnd::stopped);
   RecordedSession sink{SessionHeader{}};
-  EXPECT_EQ(go_on(session, sink), RunEnd::finished);
+  EXPECT_EQ(continue_session(session, sink), RunEnd::finished);
   EXPECT_THAT(pages_of(sink), Contains("instructions_comparison"));
 }
 
@@ -613,7 +613,7 @@ TEST(Person, WhoComesBackTakesTheBreakThatWasAskedForAndNotEnded) {
   EXPECT_EQ(session.run(&console), RunEnd::stopped);
   EXPECT_THAT(session.events(event_kind<BreakTaken>), IsEmpty());
   RecordedSession sink{SessionHeader{}};
-  EXPECT_EQ(go_on(session, sink), RunEnd::finished);
+  EXPECT_EQ(continue_session(session, sink), RunEnd::finished);
   EXPECT_THAT(pages_of(sink), ElementsAre("rest", "trial_sorting", "thanks"));
   EXPECT_EQ(testing::events_of(sink, event_kind<BreakTaken>).at(0).as<BreakTaken>()->name,
             "asked for");

@@ -75,7 +75,7 @@ class Resumed : public ::testing::Test {
   static ResolvedConfig resolved(const LoggedSession& session, const SessionOptions& again) {
     return resolve(again, session.setup, *session.protocol, session.row.header.seed);
   }
-  SessionResult go_on_with(const SessionOptions& again, int n_trials) {
+  SessionResult continue_with(const SessionOptions& again, int n_trials) {
     const LoggedSession session = session_to_resume(request.db, std::nullopt);
     return resume_session(session, resolved(session, again), until(n_trials));
   }
@@ -94,7 +94,7 @@ class Resumed : public ::testing::Test {
   void expect_verified() const {
     const Verification found = verify_session(LogReader(request.db), 1, [](double) {});
     EXPECT_FALSE(found.first) << found.first->what << ", logged " << found.first->logged
-                              << ", came out " << found.first->came_out;
+                              << ", came out " << found.first->replayed;
     EXPECT_GT(found.n_frames, 0);
     EXPECT_TRUE(found.ended);
   }
@@ -130,7 +130,7 @@ high = "Hard"
 TEST_F(Resumed, AfterAPersonAModelGoesOnAndNobodyTakesItForAPersons) {
   start_as_a_person();
   EXPECT_FALSE(analysed().simulated());
-  EXPECT_EQ(go_on_with(a_model("simulated"), 1000).end, RunEnd::finished);
+  EXPECT_EQ(continue_with(a_model("simulated"), 1000).end, RunEnd::finished);
   expect_verified();
   EXPECT_THAT(responders(), ::testing::ElementsAre("human", "simulated"));
   EXPECT_TRUE(analysed().simulated());
@@ -154,8 +154,8 @@ TEST_F(Resumed, WhatPeopleReadStaysWithItsQuestionnairesWhateverElseChanges) {
 
 TEST_F(Resumed, OneModelFollowsTheOther) {
   start();
-  ASSERT_EQ(go_on_with(a_model("coin"), 4).end, RunEnd::stopped);
-  EXPECT_EQ(go_on_with(a_model("simulated"), 1000).end, RunEnd::finished);
+  ASSERT_EQ(continue_with(a_model("coin"), 4).end, RunEnd::stopped);
+  EXPECT_EQ(continue_with(a_model("simulated"), 1000).end, RunEnd::finished);
   expect_verified();
   EXPECT_THAT(responders(), ::testing::ElementsAre("simulated", "coin", "simulated"));
   EXPECT_TRUE(analysed().simulated());
@@ -165,7 +165,7 @@ TEST_F(Resumed, AnotherSimulatorIsInForceFromThereOn) {
   start();
   SessionOptions given;
   given.simulator = "bullet-ea";
-  EXPECT_EQ(go_on_with(given, 1000).end, RunEnd::finished);
+  EXPECT_EQ(continue_with(given, 1000).end, RunEnd::finished);
   expect_verified();
   const auto setups = LogReader(request.db).setups(1);
   ASSERT_EQ(setups.size(), 2U);
@@ -178,7 +178,7 @@ TEST_F(Resumed, WhatIsGivenAgainAsItWasIsNotToldAgain) {
   start();
   SessionOptions given = a_model("simulated");
   given.simulator = request.config->config.simulator;
-  EXPECT_EQ(go_on_with(given, 1000).end, RunEnd::finished);
+  EXPECT_EQ(continue_with(given, 1000).end, RunEnd::finished);
   EXPECT_EQ(LogReader(request.db).setups(1).size(), 1U);
   expect_verified();
 }
@@ -199,7 +199,7 @@ TEST_F(Resumed, TheFirstSetupIsInTheFileAsSoonAsTheSession) {
 TEST_F(Resumed, ASessionWithoutATrialSaysWhatItIsRunWith) {
   ASSERT_EQ(start_session(request, until(0)).end, RunEnd::stopped);
   EXPECT_EQ(load_session(LogReader(request.db), request.db, 1).setup, request.config->config);
-  EXPECT_EQ(go_on_with({}, 1000).end, RunEnd::finished);
+  EXPECT_EQ(continue_with({}, 1000).end, RunEnd::finished);
   expect_verified();
 }
 
@@ -234,7 +234,7 @@ TEST_F(Resumed, IsNoLogThatIsNotAsItWasWritten) {
     change(sql);
     const std::size_t n_events = LogReader(request.db).events(1).size();
     try {
-      go_on_with({}, 1000);
+      continue_with({}, 1000);
       ADD_FAILURE() << "it went on after " << sql;
     } catch (const Error& error) {
       EXPECT_EQ(error.exit_code(), ExitCode::diverged) << sql;

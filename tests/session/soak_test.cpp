@@ -156,7 +156,7 @@ TEST_F(Day, MemoryStaysFlatAndNothingDrifts) {
   for (const SessionRow& session : reader.sessions()) {
     const Verification found = verify_rows(reader, session.session_id);
     EXPECT_FALSE(found.first) << session.session_id << ": " << found.first->what << " is "
-                              << found.first->logged << ", expected " << found.first->came_out;
+                              << found.first->logged << ", expected " << found.first->replayed;
   }
 }
 

@@ -99,7 +99,7 @@ TEST_F(VetoedLog, IsVerifiedAndHoldsNoRowOfWhatWasTakenBack) {
   const LogReader reader(path.string());
   const Verification verified = verify_session(reader, id, [](double) {});
   ASSERT_FALSE(verified.first) << verified.first->what << ": " << verified.first->logged
-                               << " instead of " << verified.first->came_out;
+                               << " instead of " << verified.first->replayed;
   int n_void = 0;
   for (const TrialRow& trial : reader.trials(id)) {
     if (trial.status != TrialStatus::voided) continue;

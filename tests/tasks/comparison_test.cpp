@@ -257,16 +257,16 @@ TEST(ComparisonRun, PresentsReferenceAtItsSlot) {
 TEST(ComparisonRun, ReportsLastUnfinishedStaircase) {
   const Comparison::Block block = block_of(Sides::random);
   Comparison::Run run(block, 3);
-  EXPECT_FALSE(run.survivor());
+  EXPECT_FALSE(run.unfinished_staircase());
   int n = 0;
-  while (!run.survivor()) {
+  while (!run.unfinished_staircase()) {
     ASSERT_FALSE(run.finished());
     TrialRow row = row_of("no_difference", {}, {});
     row.plan = run.plan({3, ++n, 1});
     Changes changes;
     run.complete(row, changes);
   }
-  EXPECT_EQ(run.survivor(), "one") << "it has more trials";
+  EXPECT_EQ(run.unfinished_staircase(), "one") << "it has more trials";
 }
 
 TEST(ComparisonKeys, CatchTrialsAreFixedOrRandom) {

@@ -72,7 +72,7 @@ class EveryTask : public ::testing::TestWithParam<Shown> {
   void expect_verified(const LogReader& reader, std::int64_t id) {
     const Verification verified = verify_session(reader, id, [](double) {});
     EXPECT_FALSE(verified.first) << verified.first->what << ": " << verified.first->logged
-                                 << " instead of " << verified.first->came_out;
+                                 << " instead of " << verified.first->replayed;
   }
 
   void continue_after_kill(const std::string& responder);

@@ -129,8 +129,8 @@ std::vector<StaircaseResult> results_of(const SessionData& data, std::string_vie
   return results;
 }
 
-using Began = StaircaseFold::Began;
-using AboveAndBelow = StaircaseFold::AboveAndBelow;
+using Began = StaircaseCollector::Began;
+using AboveAndBelow = StaircaseCollector::AboveAndBelow;
 using Results = std::vector<const StaircaseResult*>;
 
 JndFigure figure_of(const StaircaseResult& result) {
@@ -262,8 +262,8 @@ std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
   return names;
 }
 
-void StaircaseFold::add_starts(const std::string& participant,
-                               std::span<const StaircaseResult> of_session) {
+void StaircaseCollector::add_starts(const std::string& participant,
+                                    std::span<const StaircaseResult> of_session) {
   std::map<Compared, Results> by_compared;
   for (const StaircaseResult& result : of_session) by_compared[result.compared].push_back(&result);
   for (const auto& [compared, same] : by_compared) {
@@ -273,7 +273,7 @@ void StaircaseFold::add_starts(const std::string& participant,
   }
 }
 
-void StaircaseFold::add(const SessionData& data) {
+void StaircaseCollector::add(const SessionData& data) {
   const std::string participant = data.participant();
   for (const auto& [staircase, compared] : compared_by(data, task_)) {
     began_[compared][participant][data.session.session_id] += 1;
@@ -284,7 +284,7 @@ void StaircaseFold::add(const SessionData& data) {
   std::ranges::move(of_session, std::back_inserter(results_));
 }
 
-std::vector<ReferenceJnd> StaircaseFold::jnds() const {
+std::vector<ReferenceJnd> StaircaseCollector::jnds() const {
   std::map<Compared, Results> finished;
   for (const StaircaseResult& result : results_) finished[result.compared].push_back(&result);
   std::vector<ReferenceJnd> jnds;

@@ -132,9 +132,9 @@ struct ReferenceJnd {
 std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
 
 /// Collects the sessions' staircases of one task.
-class StaircaseFold {
+class StaircaseCollector {
  public:
-  explicit StaircaseFold(std::string_view task = "comparison") : task_(task) {}
+  explicit StaircaseCollector(std::string_view task = "comparison") : task_(task) {}
   void add(const SessionData& data);
 
   /// Finished staircases in the order of sessions and estimates, each with the reference of its

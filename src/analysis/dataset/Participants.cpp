@@ -34,7 +34,7 @@ std::string why_excluded(const ParticipantRow& row, int n_attempts, const Exclus
 }
 }  // namespace
 
-void ParticipantsFold::add(const SessionData& data) {
+void ParticipantsCollector::add(const SessionData& data) {
   const std::string name = data.participant();
   const auto [found, is_new] = participants_.try_emplace(name);
   Seen& seen = found->second;
@@ -46,7 +46,7 @@ void ParticipantsFold::add(const SessionData& data) {
   seen.n_attempts += static_cast<int>(data.attempts.size());
 }
 
-std::vector<ParticipantRow> ParticipantsFold::result() const {
+std::vector<ParticipantRow> ParticipantsCollector::result() const {
   std::vector<ParticipantRow> rows;
   for (const auto& [name, seen] : participants_) {
     rows.push_back(seen.row);
@@ -55,7 +55,7 @@ std::vector<ParticipantRow> ParticipantsFold::result() const {
   return rows;
 }
 
-void PlanFold::add(const SessionData& data) {
+void PlanCollector::add(const SessionData& data) {
   differ_ = differ_ || !data.plan ||
             (plan_ && (plan_->tested != data.plan->tested ||
                        plan_->equivalence_margin != data.plan->equivalence_margin));
@@ -66,31 +66,31 @@ std::string in_short(const std::string& why) {
   return why.substr(0, why.find(':'));
 }
 
-void FlowFold::add(const SessionData& data) {
-  Way& way = ways_[data.participant()];
-  way.declined = way.declined || !data.events.consented.value_or(true);
-  way.agreed = way.agreed || data.events.consented.value_or(false);
-  way.started = way.started || !data.attempts.empty() || data.n_practice > 0;
+void FlowCollector::add(const SessionData& data) {
+  Course& course = courses_[data.participant()];
+  course.declined = course.declined || !data.events.consented.value_or(true);
+  course.agreed = course.agreed || data.events.consented.value_or(false);
+  course.started = course.started || !data.attempts.empty() || data.n_practice > 0;
   n_practice_trials_ += data.n_practice;
-  way.finished = way.finished || data.finished();
-  way.last = data.session.state;
+  course.finished = course.finished || data.finished();
+  course.last = data.session.state;
 }
 
-ParticipantFlow FlowFold::result(std::span<const ParticipantRow> participants,
-                                 int n_withdrawn) const {
+ParticipantFlow FlowCollector::result(std::span<const ParticipantRow> participants,
+                                      int n_withdrawn) const {
   ParticipantFlow flow;
-  flow.n_asked = static_cast<int>(ways_.size()) + n_withdrawn;
+  flow.n_asked = static_cast<int>(courses_.size()) + n_withdrawn;
   flow.n_withdrawn = n_withdrawn;
   flow.n_practice_trials = n_practice_trials_;
-  for (const auto& [participant, way] : ways_) {
-    flow.n_declined += way.declined && !way.agreed && !way.started ? 1 : 0;
-    flow.n_started += way.started ? 1 : 0;
-    flow.n_finished += way.started && way.finished ? 1 : 0;
-    if (way.started && !way.finished) flow.unfinished[std::string(name_of(way.last))] += 1;
+  for (const auto& [participant, course] : courses_) {
+    flow.n_declined += course.declined && !course.agreed && !course.started ? 1 : 0;
+    flow.n_started += course.started ? 1 : 0;
+    flow.n_finished += course.started && course.finished ? 1 : 0;
+    if (course.started && !course.finished) flow.unfinished[std::string(name_of(course.last))] += 1;
   }
   for (const ParticipantRow& row : participants) {
     if (row.excluded()) flow.excluded[in_short(row.excluded_because)] += 1;
-    flow.n_analyzed += !row.excluded() && ways_.at(row.participant).started ? 1 : 0;
+    flow.n_analyzed += !row.excluded() && courses_.at(row.participant).started ? 1 : 0;
   }
   return flow;
 }

@@ -24,7 +24,7 @@ struct ParticipantRow {
 };
 
 /// By name. The rules are those of each one's first session.
-class ParticipantsFold {
+class ParticipantsCollector {
  public:
   void add(const SessionData& data);
   std::vector<ParticipantRow> result() const;
@@ -39,7 +39,7 @@ class ParticipantsFold {
 };
 
 /// What all sessions' protocols declare alike; none where one declares nothing or something else.
-class PlanFold {
+class PlanCollector {
  public:
   void add(const SessionData& data);
   std::optional<AnalysisPlan> result() const { return differ_ ? std::nullopt : plan_; }
@@ -66,7 +66,7 @@ struct ParticipantFlow {
 /// "anticipatory responses: 12 of 40, the protocol allows 5 %" is "anticipatory responses".
 std::string in_short(const std::string& why);
 
-class FlowFold {
+class FlowCollector {
  public:
   void add(const SessionData& data);
   /// @param participants all, of the same sessions
@@ -74,11 +74,11 @@ class FlowFold {
   ParticipantFlow result(std::span<const ParticipantRow> participants, int n_withdrawn = 0) const;
 
  private:
-  struct Way {
+  struct Course {
     bool declined = false, agreed = false, started = false, finished = false;
     SessionState last = SessionState::running;
   };
-  std::map<std::string, Way> ways_;
+  std::map<std::string, Course> courses_;
   int n_practice_trials_ = 0;
 };
 

@@ -166,7 +166,7 @@ std::string RunAs::rates_hz() const {
   return joined(rates_);
 }
 
-void ChoicesFold::add(const SessionData& data) {
+void ChoicesCollector::add(const SessionData& data) {
   const SessionHeader& header = data.session.header;
   const std::vector<ProtocolSetting> settings = changed_by(data);
   const auto [place, is_new] = places_.emplace(key_of(data), ran_.size());
@@ -184,7 +184,7 @@ void ChoicesFold::add(const SessionData& data) {
   for (const Attempt& attempt : data.attempts) ran.conditions.insert(attempt.trial.plan.condition);
 }
 
-std::vector<ProtocolChoice> ChoicesFold::result() const {
+std::vector<ProtocolChoice> ChoicesCollector::result() const {
   std::vector<ProtocolChoice> all;
   for (const RanProtocol& ran : protocols())
     for (const auto& choices : {ran.run_as.choices(ran.protocol.name), choices_in(ran.protocol)})
@@ -192,7 +192,7 @@ std::vector<ProtocolChoice> ChoicesFold::result() const {
   return all;
 }
 
-std::vector<RanProtocol> ChoicesFold::protocols() const {
+std::vector<RanProtocol> ChoicesCollector::protocols() const {
   std::map<std::string, std::set<std::string>> hashes_by_name;
   for (const Ran& ran : ran_) hashes_by_name[ran.name].insert(ran.sha256);
   std::vector<RanProtocol> all;

@@ -42,7 +42,7 @@ struct RanProtocol {
 
 /// Those of every protocol that the sessions ran, each once. A logged text that is no protocol has
 /// none.
-class ChoicesFold {
+class ChoicesCollector {
  public:
   void add(const SessionData& data);
   std::vector<ProtocolChoice> result() const;

@@ -85,7 +85,7 @@ void count_resets(std::map<std::size_t, ResetRow>& resets, const Attempt& attemp
   }
 }
 
-using Sums = QualityFold::Sums;
+using Sums = QualityCollector::Sums;
 
 void count_completed(Sums& sums, const SessionData& data, const Attempt& attempt) {
   const Anticipation found = anticipation_in(data, attempt);
@@ -113,7 +113,7 @@ std::string too_early(const std::set<double>& least_answers_s) {
   return fmt::format("answers earlier than {:g} s", fmt::join(least_answers_s, " or "));
 }
 
-std::vector<CountedRow> rows_of(const Sums& sums, std::span<const LossRow> losses) {
+std::vector<DataQualityRow> rows_of(const Sums& sums, std::span<const LossRow> losses) {
   LossRow all;
   for (const LossRow& row : losses) {
     all.n_attempts += row.n_attempts;
@@ -151,7 +151,7 @@ bool is_anticipatory(const SessionData& data, const Attempt& attempt) {
   return anticipation_in(data, attempt).any();
 }
 
-void QualityFold::add(const SessionData& data) {
+void QualityCollector::add(const SessionData& data) {
   count_session(sums_, data);
   for (const Attempt& attempt : data.attempts) {
     const TrialPlan& plan = attempt.trial.plan;
@@ -167,7 +167,7 @@ void QualityFold::add(const SessionData& data) {
   }
 }
 
-Quality QualityFold::result() const {
+Quality QualityCollector::result() const {
   Quality quality;
   for (const auto& [key, row] : losses_) quality.losses.push_back(row);
   quality.counted = rows_of(sums_, quality.losses);
@@ -199,7 +199,7 @@ std::vector<std::string> values_of(const SessionConfig& setup) {
 }
 }  // namespace
 
-void SetupsFold::add(const SessionData& data) {
+void SetupsCollector::add(const SessionData& data) {
   std::set<std::pair<std::size_t, std::string>> in_session;
   for (const LoggedSetup& logged : data.setups) {
     const auto n_attempts =
@@ -216,7 +216,7 @@ void SetupsFold::add(const SessionData& data) {
   }
 }
 
-std::vector<SetupValue> SetupsFold::result() const {
+std::vector<SetupValue> SetupsCollector::result() const {
   std::vector<CellColumn> columns;
   visit_cells(SessionConfig{},
               [&](const CellColumn& column, const auto&) { columns.push_back(column); });
@@ -229,7 +229,7 @@ std::vector<SetupValue> SetupsFold::result() const {
   return rows;
 }
 
-void IncidentsFold::add(const SessionData& data) {
+void IncidentsCollector::add(const SessionData& data) {
   const std::string participant = data.noted.empty() ? "" : data.participant();
   for (const Noted& noted : data.noted)
     incidents_.push_back({data.session.session_id, participant, noted});

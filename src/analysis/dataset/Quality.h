@@ -19,7 +19,7 @@ namespace heft {
 /// Faster answers are anticipatory, whatever the session allows.
 inline constexpr double fastest_answer_s = 0.3;
 
-struct CountedRow {
+struct DataQualityRow {
   std::string what;
   int n = 0;
   std::optional<int> of;  ///< how many could have been
@@ -44,7 +44,7 @@ struct ResetRow {
 };
 
 struct Quality {
-  std::vector<CountedRow> counted;
+  std::vector<DataQualityRow> counted;
   std::vector<LossRow> losses;
   std::vector<ResetRow> resets;
 };
@@ -53,7 +53,7 @@ struct Quality {
 /// faster than fastest_answer_s, or without contact.
 bool is_anticipatory(const SessionData& data, const Attempt& attempt);
 
-class QualityFold {
+class QualityCollector {
  public:
   void add(const SessionData& data);
   Quality result() const;
@@ -80,7 +80,7 @@ struct SetupValue {
 };
 
 /// Every recorded value, in the order of the columns.
-class SetupsFold {
+class SetupsCollector {
  public:
   void add(const SessionData& data);
   std::vector<SetupValue> result() const;
@@ -100,7 +100,7 @@ struct Incident {
 };
 
 /// In order.
-class IncidentsFold {
+class IncidentsCollector {
  public:
   void add(const SessionData& data);
   std::vector<Incident> result() const { return incidents_; }

@@ -29,15 +29,15 @@ SessionSummary summary_of(const SessionData& data) {
 }
 
 // Of all participants, the excluded too.
-struct EverybodyFold {
-  ParticipantsFold participants;
-  PlanFold plan;
-  QualityFold quality;
-  FlowFold flow;
-  ChoicesFold choices;
-  NotesFold notes;
-  SetupsFold setups;
-  IncidentsFold incidents;
+struct EveryoneCollector {
+  ParticipantsCollector participants;
+  PlanCollector plan;
+  QualityCollector quality;
+  FlowCollector flow;
+  ChoicesCollector choices;
+  NotesCollector notes;
+  SetupsCollector setups;
+  IncidentsCollector incidents;
   std::vector<SessionSummary> sessions;
   std::map<std::string, published::Comparable> comparable;
   std::size_t n_simulated = 0;
@@ -67,10 +67,10 @@ struct EverybodyFold {
 };
 
 // The figures, of those who count.
-struct CountedFold {
+struct DataQualityCollector {
   std::set<std::string> participants;
   std::shared_ptr<SharedFolds> shared = std::make_shared<SharedFolds>();
-  TracksFold tracks;
+  TracksCollector tracks;
   std::vector<std::shared_ptr<Section>> sections = all_sections();
 
   void add(const SessionData& data, bool counts = true) {
@@ -96,21 +96,21 @@ struct CountedFold {
 };
 
 // Who is excluded is known at the end; only where there are such, sessions are read again.
-CountedFold counted_of(CountedFold&& all, const EachSession& each,
-                       std::span<const ParticipantRow> participants) {
+DataQualityCollector counted_of(DataQualityCollector&& all, const EachSession& each,
+                                std::span<const ParticipantRow> participants) {
   if (std::ranges::none_of(participants, &ParticipantRow::excluded)) return std::move(all);
   std::set<std::string> excluded;
   for (const ParticipantRow& row : participants)
     if (row.excluded()) excluded.insert(row.participant);
-  CountedFold counted;
+  DataQualityCollector counted;
   each([&](const SessionData& data) { counted.add(data, !excluded.contains(data.participant())); });
   return counted;
 }
 
 // @param summary with database, command and integrity  @param n_withdrawn sessions without data
 Summary summarize(Summary summary, const EachSession& each, int n_withdrawn) {
-  EverybodyFold everybody;
-  CountedFold all;
+  EveryoneCollector everybody;
+  DataQualityCollector all;
   each([&](const SessionData& data) {
     everybody.add(data);
     all.add(data);

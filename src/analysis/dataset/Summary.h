@@ -63,7 +63,7 @@ struct Hypothesis {
 /// What several sections are made of; sessions are read once for all.
 struct SharedFolds {
   ComparisonTrials comparisons;
-  StaircaseFold staircases, judgments{"judgment"};
+  StaircaseCollector staircases, judgments{"judgment"};
 };
 
 class Section;
@@ -72,7 +72,7 @@ struct Summary {
   std::string database, command;
   LogIntegrity integrity = {};
   bool checks_models = true;  ///< by simulated studies
-  std::string data;  ///< "human", "simulated" or "human and simulated"; empty: no sessions
+  std::string data;           ///< "human", "simulated" or "human and simulated"; empty: no sessions
   std::vector<SessionSummary> sessions;
   int n_participants = 0;                    ///< that count
   std::vector<ParticipantRow> participants;  ///< all, those left out too

@@ -69,7 +69,7 @@ std::vector<Track> tracks_of(const SessionData& data) {
   for (const Attempt& attempt : data.attempts)
     if (auto tracked = tracked_in(attempt, data)) add_point(tracks, std::move(*tracked));
   for (const std::string_view task : {Comparison::task.name, Judgment::task.name}) {
-    StaircaseFold staircases(task);
+    StaircaseCollector staircases(task);
     staircases.add(data);
     for (const StaircaseResult& result : staircases.results())
       for (Track& track : tracks)
@@ -84,7 +84,7 @@ std::vector<Track> tracks_of(const SessionData& data) {
 }
 }  // namespace
 
-void TracksFold::add(const SessionData& data) {
+void TracksCollector::add(const SessionData& data) {
   std::vector<Track> tracks = tracks_of(data);
   if (tracks.empty()) return;
   for (Track& track : tracks) track.points.shrink_to_fit();  // of a thousand, what is spare is much

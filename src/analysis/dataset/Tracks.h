@@ -43,7 +43,7 @@ struct SessionTracks {
 
 /// Every session that has staircases that estimate a JND or the threshold of a judgment whose
 /// question the log has.
-class TracksFold {
+class TracksCollector {
  public:
   void add(const SessionData& data);
   const std::vector<SessionTracks>& result() const& { return all_; }

@@ -89,7 +89,7 @@ std::map<Key, Results> results_by_person(const std::deque<StaircaseResult>& all)
   return results;
 }
 
-std::map<Key, ParticipantJnd> jnds_by_person(const StaircaseFold& staircases) {
+std::map<Key, ParticipantJnd> jnds_by_person(const StaircaseCollector& staircases) {
   std::map<Key, ParticipantJnd> jnds;
   for (const ReferenceJnd& jnd : staircases.jnds())
     for (const ParticipantJnd& one : jnd.overall.participants)
@@ -225,7 +225,7 @@ class SensitivitySection final : public Section {
 
   Estimates of_participants(const Summary& summary) const override {
     const ComparisonTrials& trials = summary.shared->comparisons;
-    const StaircaseFold& staircases = summary.shared->staircases;
+    const StaircaseCollector& staircases = summary.shared->staircases;
     const auto jnds = jnds_by_person(staircases);
     const auto results = results_by_person(staircases.results());
     Estimates all;

@@ -29,7 +29,7 @@ struct TwoAnswerFit {
   std::string why;                        ///< there is no threshold; empty: there is
 };
 
-/// What one of these tasks has of its own.
+/// What sets one of these tasks apart.
 struct TwoAnswerTask {
   /// None: it is no answer of this task.
   std::optional<TwoWayAnswer> (*answer_of)(const Attempt& attempt);

@@ -65,12 +65,12 @@ std::string missing_note(const Summary& summary) {
 }
 }  // namespace
 
-void NotesFold::add(const SessionData& data) {
+void NotesCollector::add(const SessionData& data) {
   const SessionHeader& header = data.session.header;
   n_sessions_[data.participant()] += 1;
   protocols_[header.protocol_sha256] = header.protocol_name;
   for (const std::string_view task : {Comparison::task.name, Judgment::task.name}) {
-    StaircaseFold staircases(task);
+    StaircaseCollector staircases(task);
     staircases.add(data);
     for (const StaircaseResult& result : staircases.results())
       if (result.jnd_g) methods_[result.compared.block].insert(result.compared.method);
@@ -81,7 +81,7 @@ void NotesFold::add(const SessionData& data) {
   pictures_ += data.pictures;
 }
 
-std::string NotesFold::repeated_note() const {
+std::string NotesCollector::repeated_note() const {
   std::vector<std::string> repeated;
   for (const auto& [participant, n] : n_sessions_)
     if (n > 1) repeated.push_back(fmt::format("{} ({} sessions)", participant, n));
@@ -92,7 +92,7 @@ std::string NotesFold::repeated_note() const {
       some_of(repeated));
 }
 
-std::string NotesFold::protocols_note() const {
+std::string NotesCollector::protocols_note() const {
   if (protocols_.size() < 2) return "";
   std::vector<std::string> names;
   for (const auto& [sha256, name] : protocols_)
@@ -103,7 +103,7 @@ std::string NotesFold::protocols_note() const {
       protocols_.size(), some_of(names));
 }
 
-std::vector<std::string> NotesFold::methods_notes() const {
+std::vector<std::string> NotesCollector::methods_notes() const {
   std::vector<std::string> notes;
   for (const auto& [block, methods] : methods_)
     if (methods.size() > 1)
@@ -115,7 +115,7 @@ std::vector<std::string> NotesFold::methods_notes() const {
 }
 
 // Physics are the same without a held effector; the movements differ.
-std::string NotesFold::dragged_note() const {
+std::string NotesCollector::dragged_note() const {
   if (dragged_.empty()) return "";
   return fmt::format(
       "The effector was dragged on the screen (tracker mouse), not held, in session {}: do not "
@@ -123,7 +123,7 @@ std::string NotesFold::dragged_note() const {
       some_of(dragged_));
 }
 
-std::string NotesFold::pictures_note() const {
+std::string NotesCollector::pictures_note() const {
   if (pictures_.dropped == 0 && pictures_.late == 0 && pictures_.doubled == 0) return "";
   std::string note = fmt::format(
       "Of {} camera pictures shown to participants, {} were late; {} more were dropped.",
@@ -135,7 +135,7 @@ std::string NotesFold::pictures_note() const {
   return note;
 }
 
-std::vector<std::string> NotesFold::result(const Summary& summary) const {
+std::vector<std::string> NotesCollector::result(const Summary& summary) const {
   std::vector<std::string> notes{unverified_note(summary), withdrawn_note(summary),
                                  simulated_note(summary),  missing_note(summary),
                                  unfinished_note(summary), excluded_note(summary),

@@ -39,7 +39,7 @@ std::string simulated_note(const Summary& summary);
 std::string some_of(const std::vector<std::string>& names, std::size_t most = 8);
 
 /// Notes on the sessions, such as unfinished or repeated ones.
-class NotesFold {
+class NotesCollector {
  public:
   void add(const SessionData& data);
   /// A sentence each; none where nothing is out of the ordinary.

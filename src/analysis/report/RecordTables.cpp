@@ -50,7 +50,7 @@ Table participant_table(const Summary& summary) {
   return table;
 }
 
-Table counted_table(const Summary& summary) {
+Table data_quality_table(const Summary& summary) {
   Table table{"data_quality",
               "Data quality",
               {{"what", "what"}, {"n", "n"}, {"of", "of"}, {"meaning", "meaning"}},
@@ -59,7 +59,7 @@ Table counted_table(const Summary& summary) {
               {},
               "quality.summary[]"};
   if (summary.sessions.empty()) return table;
-  for (const CountedRow& row : summary.quality.counted)
+  for (const DataQualityRow& row : summary.quality.counted)
     table.rows.push_back(
         {word(row.what), count(row.n), row.of ? count(*row.of) : Cell(), word(row.meaning)});
   return table;
@@ -317,7 +317,7 @@ std::vector<const StudyEstimate*> published_among(const Summary& summary) {
 
 std::vector<RecordTable> record_tables() {
   return {{TablePlace::report_first, participant_table},
-          {TablePlace::first, counted_table},
+          {TablePlace::first, data_quality_table},
           {TablePlace::first, losses_table},
           {TablePlace::first, resets_table},
           {TablePlace::report_first, incident_table},

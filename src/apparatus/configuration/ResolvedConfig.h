@@ -26,10 +26,10 @@ struct ViewEntry;
 
 /// The caller's choices. Others get defaults, or the logged session's values.
 struct SessionOptions {
-  std::optional<WhoAnswers> responder;     ///< else a person
-  std::optional<Plug> tracker;             ///< else camera:0 for a person, hand for a model
-  std::optional<Plug> view;                ///< else window for a person, headless for a model
-  std::optional<std::string> simulator;    ///< else the protocol's
+  std::optional<ResponderChoice> responder;  ///< else a person
+  std::optional<Plug> tracker;               ///< else camera:0 for a person, hand for a model
+  std::optional<Plug> view;                  ///< else window for a person, headless for a model
+  std::optional<std::string> simulator;      ///< else the protocol's
   std::optional<std::string> camera_file;  ///< else default_camera_file, or the synthetic camera's
   std::optional<std::string> board_file, effector_file;  ///< else the installed ones
   std::optional<std::string> language;                   ///< or FILE.toml; else the protocol's

@@ -21,7 +21,7 @@ class DraggedPictures final : public PictureSource {
   void begin_attempt(const AttemptStart& attempt) override;
   std::optional<Picture> next() override;
   void skip_to(double t_s) override { count_.skip_to(t_s); }
-  void listen_again() override { count_.skipped(); }
+  void restart_count() override { count_.skipped(); }
 
  private:
   std::shared_ptr<const Image> filmed(const Pose& effector, double t_s);

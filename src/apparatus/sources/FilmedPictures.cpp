@@ -90,27 +90,27 @@ CameraPictures::CameraPictures(OpenCamera open, const PictureParts& parts)
 void CameraPictures::begin_attempt(const AttemptStart& attempt) {
   attempt_ = attempt;
   attempt_capture_s_ = last_capture_s_;
-  listen_again();  // pictures between attempts do not count
+  restart_count();  // pictures between attempts do not count
 }
 
-void CameraPictures::listen_again() {
-  heard_s_ = clock_.now_s();
+void CameraPictures::restart_count() {
+  last_picture_s_ = clock_.now_s();
   last_number_.reset();
   tracker_.look_again();
 }
 
 std::optional<double> CameraPictures::rate_hz() const {
-  const double told_hz = camera_->mode().rate_hz;
-  return std::isfinite(told_hz) && told_hz > 0 ? std::optional(told_hz) : std::nullopt;
+  const double reported_hz = camera_->mode().rate_hz;
+  return std::isfinite(reported_hz) && reported_hz > 0 ? std::optional(reported_hz) : std::nullopt;
 }
 
 std::optional<Picture> CameraPictures::next() {
   auto taken = camera_->next(0);
-  if (!taken) return camera_->is_live() ? picture_of_silence() : std::nullopt;
+  if (!taken) return camera_->is_live() ? lost_picture() : std::nullopt;
   const double t_s = time_of(*taken);
   const int n_dropped = last_number_ ? static_cast<int>(taken->number - *last_number_ - 1) : 0;
   last_number_ = taken->number;
-  heard_s_ = clock_.now_s();
+  last_picture_s_ = clock_.now_s();
   if (recording_ && attempt_.is_recorded()) recording_->keep(taken->image, taken->capture_s);
   Picture picture =
       tracker_.track(std::make_shared<const Image>(std::move(taken->image)), taken->capture_s);
@@ -133,9 +133,9 @@ double CameraPictures::time_of(const CameraPicture& taken) {
   return taken.capture_s - *attempt_capture_s_;
 }
 
-std::optional<Picture> CameraPictures::picture_of_silence() {
+std::optional<Picture> CameraPictures::lost_picture() {
   const double now_s = clock_.now_s();
-  if (now_s - heard_s_ < silence_s) return std::nullopt;
+  if (now_s - last_picture_s_ < silence_s) return std::nullopt;
   Picture picture;
   picture.trouble = "camera_lost";
   picture.sample.tracked = false;
@@ -161,7 +161,7 @@ void SyntheticPictures::begin_attempt(const AttemptStart& attempt) {
   tracker_.reset();
 }
 
-void SyntheticPictures::listen_again() {
+void SyntheticPictures::restart_count() {
   count_.skipped();
   tracker_.look_again();
 }

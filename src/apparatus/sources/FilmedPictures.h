@@ -51,7 +51,7 @@ class CameraPictures final : public PictureSource {
 
   void begin_attempt(const AttemptStart& attempt) override;
   std::optional<Picture> next() override;
-  void listen_again() override;
+  void restart_count() override;
   std::optional<double> rate_hz() const override;
   std::vector<CheckResult> check(double wanted_rate_hz) override;
   bool has_checks() const override { return true; }
@@ -60,7 +60,7 @@ class CameraPictures final : public PictureSource {
 
  private:
   double time_of(const CameraPicture& taken);
-  std::optional<Picture> picture_of_silence();
+  std::optional<Picture> lost_picture();
 
   OpenCamera open_;
   std::unique_ptr<Camera> camera_;
@@ -72,7 +72,7 @@ class CameraPictures final : public PictureSource {
   // A file's times continue between attempts; an attempt starts with the next picture.
   std::optional<double> last_capture_s_, attempt_capture_s_;
   std::optional<std::int64_t> last_number_;
-  double heard_s_ = 0;  ///< session time of the last picture of a live camera
+  double last_picture_s_ = 0;  ///< session time of the last picture of a live camera
 };
 
 /// Pictures of a synthetic camera that films the responder's hand.
@@ -83,7 +83,7 @@ class SyntheticPictures final : public PictureSource {
   void begin_attempt(const AttemptStart& attempt) override;
   std::optional<Picture> next() override;
   void skip_to(double t_s) override { count_.skip_to(t_s); }
-  void listen_again() override;
+  void restart_count() override;
   std::vector<CheckResult> check(double wanted_rate_hz) override;
   bool has_checks() const override { return true; }
 

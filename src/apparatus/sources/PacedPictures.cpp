@@ -18,8 +18,8 @@ void PacedPictures::begin_attempt(const AttemptStart& attempt) {
   jumped_ = false;
 }
 
-void PacedPictures::listen_again() {
-  source_->listen_again();
+void PacedPictures::restart_count() {
+  source_->restart_count();
   due_s_.reset();
   n_lost_ = 0;
 }

@@ -18,7 +18,7 @@ class PacedPictures final : public PictureSource {
   /// Dropped pictures are counted only if they would have been displayed.
   std::optional<Picture> next() override;
   void skip_to(double t_s) override { source_->skip_to(t_s); }
-  void listen_again() override;
+  void restart_count() override;
   std::vector<CheckResult> check(double wanted_rate_hz) override {
     return source_->check(wanted_rate_hz);
   }

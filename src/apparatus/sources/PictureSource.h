@@ -63,7 +63,7 @@ class PictureSource {
 
   /// Pictures since the last call were ignored (held session, break). They do not count as dropped,
   /// and a missing camera or board counts as missing from now.
-  virtual void listen_again() {}
+  virtual void restart_count() {}
 
   /// Rate of a live source in Hz; none: the display's rate.
   virtual std::optional<double> rate_hz() const { return std::nullopt; }
@@ -158,7 +158,7 @@ class HandPictures : public PictureSource {
   void begin_attempt(const AttemptStart& attempt) override;
   std::optional<Picture> next() override;
   void skip_to(double t_s) override { count_.skip_to(t_s); }
-  void listen_again() override { count_.skipped(); }
+  void restart_count() override { count_.skipped(); }
 
  private:
   Responder& responder_;

@@ -21,7 +21,7 @@ using nlohmann::ordered_json;
 
 struct FitResponderOptions {
   std::string protocol, figures, db, save;
-  std::optional<WhoAnswers> model;
+  std::optional<ResponderChoice> model;
   std::vector<FreeParameter> free;
   std::vector<ProtocolSetting> set;
   int people = 4000;

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 struct PowerOptions {
   std::string protocol, chart;
-  std::vector<WhoAnswers> models;
+  std::vector<ResponderChoice> models;
   std::vector<ProtocolSetting> set;
   std::vector<int> participants{8, 13, 20};
   std::string level = "surrogate";
@@ -70,9 +70,9 @@ class WorkFolder {
 };
 
 // The studies of one model. Of one seed they have the same people at every level.
-Power power_of_model(const PowerOptions& options, const Protocol& protocol, const WhoAnswers& model,
-                     const std::string& level, const std::vector<int>& participants,
-                     std::uint64_t seed) {
+Power power_of_model(const PowerOptions& options, const Protocol& protocol,
+                     const ResponderChoice& model, const std::string& level,
+                     const std::vector<int>& participants, std::uint64_t seed) {
   SessionOptions given;
   given.responder = model;
   given.tracker = Plug{level};
@@ -95,7 +95,7 @@ void print_powers(const PowerOptions& options) {
   const std::uint64_t seed = options.seed ? *options.seed : fresh_seed();
   const Protocol protocol = load_protocol(options.protocol, options.set);
   std::vector<ModelPower> all;
-  for (const WhoAnswers& model : options.models) {
+  for (const ResponderChoice& model : options.models) {
     all.push_back(
         {protocol.name, to_text(model), seed, options.level,
          power_of_model(options, protocol, model, options.level, options.participants, seed),
@@ -116,7 +116,7 @@ void print_powers(const PowerOptions& options) {
 
 void check(const PowerOptions& options) {
   const auto refuse = [](const char* why) { throw Error(why, ExitCode::usage); };
-  for (const WhoAnswers& model : options.models)
+  for (const ResponderChoice& model : options.models)
     if (std::holds_alternative<Person>(model))
       refuse("--model human: power comes from simulated people; expected a model");
   if (options.confirm && options.level == "hand")

@@ -29,7 +29,7 @@ namespace {
 struct ReplayOptions {
   std::string db = "heft.db";
   std::optional<std::int64_t> session;
-  std::vector<WhoAnswers> responders;
+  std::vector<ResponderChoice> responders;
   int repeats = JudgeRequest{}.repeats;
   std::optional<std::uint64_t> seed;
   std::string chart;
@@ -38,10 +38,10 @@ struct ReplayOptions {
   std::vector<ProtocolSetting> set;
   std::string witness;
   bool rerun = false, json = false, tables = false;
-  bool supposes() const { return simulator || !set.empty(); }
+  bool changes_config() const { return simulator || !set.empty(); }
   bool judges() const { return !responders.empty() && !rerun; }
-  bool verifies() const { return responders.empty() && !supposes() && !view; }
-  bool compares_paths() const { return supposes() && !rerun && !view && !judges(); }
+  bool verifies() const { return responders.empty() && !changes_config() && !view; }
+  bool compares_paths() const { return changes_config() && !rerun && !view && !judges(); }
 };
 
 // Tables of a protocol that affect the world of a logged hand.
@@ -102,7 +102,7 @@ void print_divergence(const Divergence& divergence) {
   const std::string trial =
       divergence.trial_number > 0 ? fmt::format("trial {}", divergence.trial_number) : "no trial";
   print("  first divergence: {}, at {:.6f} s: {}\n    logged:   {}\n    replayed: {}\n", trial,
-        divergence.t_s, divergence.what, divergence.logged, divergence.came_out);
+        divergence.t_s, divergence.what, divergence.logged, divergence.replayed);
 }
 
 std::string how_frames_were_checked(const Verification& found) {
@@ -205,12 +205,12 @@ void verify_all(const LogReader& reader, const ReplayOptions& options) {
 }
 
 // The logged protocol and configuration with the changes.
-struct Supposed {
+struct ChangedConfig {
   Protocol protocol;
   SessionConfig config;
 };
 
-Supposed supposed(const LoggedSession& session, const ReplayOptions& options) {
+ChangedConfig changed_config(const LoggedSession& session, const ReplayOptions& options) {
   SessionConfig config = session.setup;
   config.settings = session.setups.front().setup.settings;
   config.settings.insert(config.settings.end(), options.set.begin(), options.set.end());
@@ -219,7 +219,7 @@ Supposed supposed(const LoggedSession& session, const ReplayOptions& options) {
   std::string simulator = options.simulator.value_or(config.simulator);
   for (const ProtocolSetting& set : options.set)
     if (set.key == "physics.simulator" && !options.simulator) simulator = protocol.simulator.name;
-  if (options.supposes()) {  // the rate may be among the changes
+  if (options.changes_config()) {  // the rate may be among the changes
     const SimulatorPick pick = simulator_for(simulator, protocol);
     config.simulator = pick.simulator;
     config.rate_hz = pick.rate_hz;
@@ -232,13 +232,13 @@ Supposed supposed(const LoggedSession& session, const ReplayOptions& options) {
 
 // The responder's own hand, without camera or view.
 OtherResponder run_again(const LogReader& reader, const LoggedSession& session,
-                         const WhoAnswers& responder, const Supposed& supposed) {
+                         const ResponderChoice& responder, const ChangedConfig& changed_config) {
   SessionOptions given;
   given.responder = responder;
   given.tracker = Plug{"hand"};
   given.view = Plug{"headless"};
   const SessionRequest request{
-      resolve(given, supposed.config, supposed.protocol, session.row.header.seed),
+      resolve(given, changed_config.config, changed_config.protocol, session.row.header.seed),
       session.row.header.participant};
   const std::int64_t session_id = session.row.session_id;
   ProgressBar bar(fmt::format("session {}", session_id));
@@ -253,13 +253,13 @@ OtherResponder run_again(const LogReader& reader, const LoggedSession& session,
 void ask_what_if(const LogReader& reader, const ReplayOptions& options) {
   for (const std::int64_t session_id : chosen_sessions(reader, options)) {
     const LoggedSession session = load_session(reader, options.db, session_id);
-    const Supposed would_be = supposed(session, options);
+    const ChangedConfig changed = changed_config(session, options);
     print("session {}, participant {}:\n", session_id, session.row.header.participant);
     if (options.rerun) {
-      print_rerun(run_again(reader, session, options.responders.front(), would_be));
+      print_rerun(run_again(reader, session, options.responders.front(), changed));
       continue;
     }
-    print_paths(compare_paths(reader, session, would_be.protocol), options.tables);
+    print_paths(compare_paths(reader, session, changed.protocol), options.tables);
   }
 }
 
@@ -269,20 +269,21 @@ void judge(const LogReader& reader, const ReplayOptions& options) {
   JudgeRequest request{options.responders, options.repeats};
   request.seed = options.seed.value_or(request.seed);
   JudgedLog log{{}, request.repeats, request.seed, static_cast<int>(ids.size()), {}, 0};
-  for (const WhoAnswers& responder : options.responders) log.names.push_back(to_text(responder));
+  for (const ResponderChoice& responder : options.responders)
+    log.names.push_back(to_text(responder));
   const double start_s = monotonic_s();
   {
     ProgressBar bar("judging");
     for (std::size_t i = 0; i < ids.size(); ++i) {
       const LoggedSession session = load_session(reader, options.db, ids[i]);
-      std::optional<Supposed> would_be;
-      if (options.supposes()) would_be = supposed(session, options);
+      std::optional<ChangedConfig> changed;
+      if (options.changes_config()) changed = changed_config(session, options);
       const auto progress = [&](double done) {
         const double all = (static_cast<double>(i) + done) / static_cast<double>(ids.size());
         bar.update(all, fmt::format("session {}, {:.0f} %", ids[i], 100 * all));
       };
       log.judgments.add(judge_session(reader, session, request,
-                                      would_be ? &would_be->protocol : nullptr, progress));
+                                      changed ? &changed->protocol : nullptr, progress));
     }
   }
   log.took_s = monotonic_s() - start_s;
@@ -311,7 +312,7 @@ void show(const LogReader& reader, const ReplayOptions& options) {
                             to_text(*options.view)),
                 ExitCode::usage);
   const LoggedSession session = load_session(reader, options.db, ids.front());
-  const Protocol what_if = supposed(session, options).protocol;
+  const Protocol what_if = changed_config(session, options).protocol;
   ViewSetup setup;
   setup.stage = stage_of(*session.protocol, 3);
   if (entry.has_screen) setup.texts = texts_of(session.setup);
@@ -322,9 +323,9 @@ void show(const LogReader& reader, const ReplayOptions& options) {
   setup.rate_hz = session.protocol->display_rate_hz;
   const StopOnSignal stop;
   const auto view = entry.make(setup);
-  const int n =
-      show_session(reader, session, *view,
-                   {options.supposes() ? &what_if : nullptr, entry.has_screen, &stop.requested()});
+  const int n = show_session(
+      reader, session, *view,
+      {options.changes_config() ? &what_if : nullptr, entry.has_screen, &stop.requested()});
   print("session {}: {} shown\n", session.row.session_id, counted(n, "frame"));
   if (stop.requested()) throw Error("stopped before the last frame", ExitCode::interrupted);
 }

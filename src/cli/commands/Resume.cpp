@@ -30,7 +30,7 @@ std::string backup_of(const LoggedSession& session, const std::string& given) {
 }
 
 void resume(const std::string& db, std::optional<std::int64_t> session_id, SessionOptions again,
-            const std::optional<EventTarget>& events, bool unblind, bool go_on) {
+            const std::optional<EventTarget>& events, bool unblind, bool ignore_failed_checks) {
   const LoggedSession session = session_to_resume(db, session_id);
   again.backup = backup_of(session, again.backup);
   const ResolvedConfig config =
@@ -43,11 +43,12 @@ void resume(const std::string& db, std::optional<std::int64_t> session_id, Sessi
     else if (!from.empty())
       say("from here on with {} {} instead of {}\n", column, to, from);
   say_next_parts(config);
-  say_finished(
-      run_session(
-          {config, db, unblind, go_on, events, place_words(session.row.header.participant_info)},
-          [&](const RunnerOptions& runner) { return resume_session(session, config, runner); }),
-      db);
+  say_finished(run_session({config, db, unblind, ignore_failed_checks, events,
+                            place_words(session.row.header.participant_info)},
+                           [&](const RunnerOptions& runner) {
+                             return resume_session(session, config, runner);
+                           }),
+               db);
 }
 
 // It cannot be undone, so it is never applied to the newest session by default.
@@ -71,7 +72,7 @@ void add_resume(Command& app) {
     std::optional<EventTarget> events;
     std::optional<std::int64_t> session;
     SessionOptions again;
-    bool end = false, unblind = false, go_on = false, keys = false;
+    bool end = false, unblind = false, ignore_failed_checks = false, keys = false;
   };
   const auto options = std::make_shared<ResumeOptions>();
   Command command =
@@ -86,13 +87,13 @@ void add_resume(Command& app) {
                      "from here on; each trial is replayed with its own");
   command.add_option("--language", &options->again.language,
                      "of the participant's screens: en, fr, or a text FILE.toml");
-  add_elsewhere_options(command, options->again, options->events);
+  add_output_options(command, options->again, options->events);
   command.group("Options");
   command.add_flag("--unblind", options->unblind,
                    "show the experimenter masses and conditions; it is logged");
   command.add_flag("--keys", options->keys,
                    "let the participant's window take keys as answers from here on");
-  add_go_on(command, options->go_on);
+  add_ignore_failed_checks(command, options->ignore_failed_checks);
   command.add_flag(
       "--end", options->end,
       "do not continue: end that --session for good, if the participant does not return");
@@ -100,7 +101,7 @@ void add_resume(Command& app) {
     if (options->end) return end(options->db, options->session, options->again.backup);
     if (options->keys) options->again.keys = TakesKeys::yes;
     resume(options->db, options->session, options->again, options->events, options->unblind,
-           options->go_on);
+           options->ignore_failed_checks);
   });
 }
 

@@ -32,7 +32,8 @@ struct RunOptions {
   std::optional<Purpose> purpose;
   std::optional<double> text_size;
   std::map<std::string, std::string> participant_info;  // assigned by the plan
-  bool left_handed = false, unblind = false, again = false, keys = false, go_on = false;
+  bool left_handed = false, unblind = false, again = false, keys = false,
+       ignore_failed_checks = false;
   bool changed_protocol = false;
   bool are_two = false;  // a participant with a similar id, confirmed to be another person
 };
@@ -132,14 +133,14 @@ bool answers_yes(const std::string& question) {
 }
 
 // Without a terminal the answer is no.
-bool is_asked_and_answered_yes(const std::string& question) {
+bool confirmed(const std::string& question) {
   const bool has_terminal = isatty(STDIN_FILENO) == 1 && isatty(STDERR_FILENO) == 1;
   return has_terminal && answers_yes(question);
 }
 
 // Asks about a similar id at a terminal; elsewhere only --again continues.
 void refuse_unless_two_people(const std::string& found, RunOptions& options) {
-  if (is_asked_and_answered_yes(found + ". Are these two people?")) {
+  if (confirmed(found + ". Are these two people?")) {
     options.are_two = true;
     return;
   }
@@ -153,7 +154,7 @@ void refuse_unless_two_people(const std::string& found, RunOptions& options) {
 void refuse_unless_new(const StudyPlan& plan, const RunOptions& options) {
   const std::string found =
       fmt::format("the plan {} has no participant \"{}\"", options.plan, *options.participant);
-  if (is_asked_and_answered_yes(found + ". Give this person the next free place?")) return;
+  if (confirmed(found + ". Give this person the next free place?")) return;
   throw Error(
       fmt::format("{}, but {} to {}: correct the id, or add --again to give this person the next "
                   "free place",
@@ -186,9 +187,7 @@ void refuse_changed_protocol(const StudyPlan& plan, const std::vector<SessionRow
       "{} is not what participant(s) {} {}had", group.protocol, fmt::join(participants, ", "),
       group.name.empty() ? "" : fmt::format("of the group \"{}\" ", group.name));
   if (!since_the_last || options.changed_protocol) return say("heft: WARNING: {}\n", found);
-  if (is_asked_and_answered_yes(found +
-                                ": it was changed since then. Continue with the changed one?"))
-    return;
+  if (confirmed(found + ": it was changed since then. Continue with the changed one?")) return;
   throw Error(
       fmt::format("{}: it was changed since then. Undo the change, give the changed study another "
                   "name, or add --changed-protocol to continue with the changed one; the log "
@@ -286,10 +285,11 @@ void run(RunOptions options) {
         "a second finger turns it. For trying and teaching only; the log and every report say "
         "so\n");
   const auto start = [&](const RunnerOptions& runner) { return start_session(request, runner); };
-  say_finished(run_session({request.config, request.db, options.unblind, options.go_on,
-                            options.events, place_words(options.participant_info)},
-                           start),
-               request.db);
+  say_finished(
+      run_session({request.config, request.db, options.unblind, options.ignore_failed_checks,
+                   options.events, place_words(options.participant_info)},
+                  start),
+      request.db);
 }
 
 }  // namespace
@@ -318,7 +318,7 @@ void add_run(Command& app) {
   command.add_option("--db", &options->db, "the log; sessions are added (default: heft.db)");
   command.add_seed(options->seed);
   add_session_options(command, options->given);
-  add_elsewhere_options(command, options->given, options->events);
+  add_output_options(command, options->given, options->events);
   command.group("The protocol and the log");
   command.add_option("--simulator", &options->given.simulator, "instead of the protocol's");
   add_settings(command, options->given.settings,
@@ -353,7 +353,7 @@ void add_run(Command& app) {
                      "poses: frame (from 0), t_s, and x_m...camera_qz as in heft track");
   command.add_flag("--unblind", options->unblind,
                    "show the experimenter masses and conditions; it is logged");
-  add_go_on(command, options->go_on);
+  add_ignore_failed_checks(command, options->ignore_failed_checks);
   command.add_flag("--changed-protocol", options->changed_protocol,
                    "continue with a plan's protocol that was changed since earlier participants of "
                    "the group");

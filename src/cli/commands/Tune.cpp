@@ -29,7 +29,7 @@ struct Ends {
 struct TuneOptions {
   std::string protocol, chart;
   Ends range_g, stiffness_n_per_m{10, 1000};
-  std::optional<WhoAnswers> model;
+  std::optional<ResponderChoice> model;
   std::vector<ProtocolSetting> set;
   int repeats = 100;
   int jobs = 1;

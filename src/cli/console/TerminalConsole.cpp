@@ -123,12 +123,12 @@ void TerminalConsole::take_keys() {
 
 void TerminalConsole::take_key(char key) {
   drawn_ = {};
-  if (asking_ == Asking::go_on) return take_answer(key);
+  if (asking_ == Asking::whether_to_continue) return take_answer(key);
   if (asks_for_text()) return take_text_key(key);
   if (asking_ != Asking::nothing) return take_choice(key);
   switch (key) {
     case 'p':
-      return give(paused_ ? ConsoleCommandKind::go_on : ConsoleCommandKind::pause);
+      return give(paused_ ? ConsoleCommandKind::proceed : ConsoleCommandKind::pause);
     case 'v':
       return ask(Asking::veto_reason);
     case 'x':
@@ -152,7 +152,7 @@ void TerminalConsole::take_key(char key) {
 void TerminalConsole::take_answer(char key) {
   if (key != 'y' && key != 'n' && key != 'r') return;
   asking_ = Asking::nothing;
-  give(key == 'y'   ? ConsoleCommandKind::go_on
+  give(key == 'y'   ? ConsoleCommandKind::proceed
        : key == 'n' ? ConsoleCommandKind::end
                     : ConsoleCommandKind::check);
 }
@@ -224,7 +224,7 @@ std::string reason_prompt(const std::string& what, const std::string& typed, int
 
 std::string TerminalConsole::prompt(int width) const {
   switch (asking_) {
-    case Asking::go_on:
+    case Asking::whether_to_continue:
       return question_;
     case Asking::veto_reason:
       return reason_prompt("void", text_, width);
@@ -263,12 +263,12 @@ void TerminalConsole::show(const ConsoleStatus& status) {
                    cut_to(prompt(width), width)));
 }
 
-bool TerminalConsole::ask_to_go_on(const std::string& question) {
+bool TerminalConsole::ask_to_continue(const std::string& question) {
   if (!terminal_.is_there()) return false;
   tcflush(STDIN_FILENO, TCIFLUSH);  // discards keys typed before the question
   ring();
   question_ = question;
-  ask(Asking::go_on);
+  ask(Asking::whether_to_continue);
   return true;
 }
 

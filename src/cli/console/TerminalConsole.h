@@ -22,11 +22,19 @@ class TerminalConsole final : public Console {
 
   std::optional<ConsoleCommand> command() override;
   void show(const ConsoleStatus& status) override;
-  bool ask_to_go_on(const std::string& question) override;
+  bool ask_to_continue(const std::string& question) override;
   void say(const std::string& text) override;
 
  private:
-  enum class Asking { nothing, go_on, veto_reason, answer_reason, note, end, unblind };
+  enum class Asking {
+    nothing,
+    whether_to_continue,
+    veto_reason,
+    answer_reason,
+    note,
+    end,
+    unblind
+  };
 
   void take_keys();
   void take_key(char key);

@@ -79,8 +79,8 @@ void print_visible_cues(const std::vector<PathDifference>& differences, bool all
     if (all || column.in_short) print(" {:^15}", column.title);
   print("\n");
   for (const PathDifference& trials : differences)
-    for (const CueDifference& cubes : trials.noticed) {
-      const bool is_end = &cubes == &trials.noticed.front() || &cubes == &trials.noticed.back();
+    for (const CueDifference& cubes : trials.cues) {
+      const bool is_end = &cubes == &trials.cues.front() || &cubes == &trials.cues.back();
       if (!all && !is_end) continue;
       print("  {:<13} {:<4} {:>7g}", name_of(trials.task), trials.condition, cubes.mass_g);
       for (const CueColumn& column : cue_columns)

@@ -140,7 +140,7 @@ class LogReader::Impl {
             "{}: session {} was recorded in version {} of the log; heft {} reads versions {} to "
             "{}. Use the version of heft that recorded it.",
             path_, session.session_id, session.header.log_version, HEFT_VERSION, oldest_log_version,
-            todays_log_version));
+            current_log_version));
       for (const auto& [key, value] :
            rows(info_from, "participant_info",
                 "SELECT rowid, key, value FROM participant_info WHERE session_id = ?",

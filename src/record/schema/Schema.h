@@ -19,7 +19,7 @@ namespace heft::schema {
 inline constexpr std::int64_t application_id = 0x48656674;
 
 /// The version that this program writes; a file's version is its user_version.
-inline constexpr int current_version = todays_log_version;
+inline constexpr int current_version = current_log_version;
 
 /// Contents of a database file. An `older_log` is upgraded, an `outdated_log` refused.
 enum class FileKind { empty, log, older_log, outdated_log, newer_log, foreign };

@@ -26,7 +26,7 @@ struct SessionHeader {
   std::string started_utc;
   Purpose purpose = Purpose::main;
   std::string responder;
-  int log_version = todays_log_version;
+  int log_version = current_log_version;
   std::map<std::string, std::string> participant_info;  ///< age, handedness...; all optional
 };
 template <typename Row, typename Visit>

@@ -32,7 +32,7 @@ namespace {
   throw Error(
       fmt::format("{} is a log of version {}; heft {} reads versions {} to {}. Use the version of "
                   "heft that wrote it, or choose another file with --db FILE.",
-                  path, version, HEFT_VERSION, oldest_log_version, todays_log_version));
+                  path, version, HEFT_VERSION, oldest_log_version, current_log_version));
 }
 
 std::unique_ptr<SQLite::Database> opened(const std::string& path, const std::string& file) {

@@ -16,7 +16,7 @@ std::optional<std::array<double, 3>> learned_response(const Intrinsics& camera,
     tracker.reset();  // each view is from another place
     tracker.track(pictures[i], static_cast<double>(i));
   }
-  if (!tracker.tone_is_told()) return std::nullopt;
+  if (!tracker.has_tone_evidence()) return std::nullopt;
   const ToneBend& bend = tracker.tone().bend();
   return std::array{bend[0], bend[1], bend[2]};
 }

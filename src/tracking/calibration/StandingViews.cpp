@@ -92,16 +92,16 @@ bool StandingViews::offer(const Image& image, const std::string& name) {
       board_viewer_.view(image, camera_), effector_viewer_.view(image, camera_), {}, {}};
   view.board.name = view.effector.name = name;
   last_ = view.effector;
-  const auto passed_over = [](int& count) { return ++count, false; };
+  const auto skipped = [](int& count) { return ++count, false; };
   const auto board = rough_pose(board_, camera_, undistorted(view.board, camera_));
-  if (!board) return passed_over(n_without_board_);
-  if (view.effector.tags.empty()) return passed_over(n_without_effector_);
+  if (!board) return skipped(n_without_board_);
+  if (view.effector.tags.empty()) return skipped(n_without_effector_);
   const auto standing = standing_in(view.effector, effector_, camera_, *board);
-  if (!standing) return passed_over(n_not_standing_);
-  if (live_ && difference_px(view.effector, before) > steady_px) return passed_over(n_moving_);
+  if (!standing) return skipped(n_not_standing_);
+  if (live_ && difference_px(view.effector, before) > steady_px) return skipped(n_moving_);
   for (const StandingView& kept : views_)
     if (difference_px(view.effector, kept.effector) < camera_.width_px * least_difference)
-      return passed_over(n_alike_);
+      return skipped(n_alike_);
   view.camera_from_board = *board;
   view.board_from_effector = standing->board_from_effector;
   view.face_m = standing->face_m;

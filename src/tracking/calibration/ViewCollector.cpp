@@ -36,12 +36,12 @@ bool ViewCollector::offer(const Image& image, const std::string& name) {
   const TagView before = std::move(last_);
   last_ = viewer_.view(image, guess_);
   const TagView& view = last_;
-  const auto passed_over = [](std::size_t& count) { return ++count, false; };
+  const auto skipped = [](std::size_t& count) { return ++count, false; };
   if (full()) return false;
-  if (view.tags.size() < least_tags_of_a_view) return passed_over(n_without_board_);
-  if (live_ && difference_px(view, before) > steady_px) return passed_over(n_moving_);
+  if (view.tags.size() < least_tags_of_a_view) return skipped(n_without_board_);
+  if (live_ && difference_px(view, before) > steady_px) return skipped(n_moving_);
   for (const TagView& kept : views_)
-    if (difference_px(view, kept) < least_difference_px_) return passed_over(n_alike_);
+    if (difference_px(view, kept) < least_difference_px_) return skipped(n_alike_);
   views_.push_back(view);
   pictures_.push_back(image);
   names_.push_back(name);

@@ -314,7 +314,8 @@ double leak(double cell_px, double blur_px) {
   return cautious * blur_px * normal_at(-(1 - window_cells) * cell_px / blur_px).below;
 }
 
-FittedEdge described(const EdgeAxes& axes, const StepFit& fit, double cell_px, bool tells_curve) {
+FittedEdge described(const EdgeAxes& axes, const StepFit& fit, double cell_px,
+                     bool needs_curve_evidence) {
   FittedEdge edge;
   place_points(edge, axes, fit, leak(cell_px, fit.unknowns(blur)));
   edge.dark = std::min(fit.inside_value(), fit.outside_value());
@@ -325,7 +326,7 @@ FittedEdge described(const EdgeAxes& axes, const StepFit& fit, double cell_px, b
   const bool usable = fit.levels() >= least_contrast && std::isfinite(edge.sd_px);
   edge.quality = usable ? fit.explained() : 0;
   const bool alone = (1 - window_cells) * cell_px > least_lonely_sd * edge.blur_px;
-  if (usable && tells_curve && alone && !edge.saturated) edge.tone = fit.tone_evidence();
+  if (usable && needs_curve_evidence && alone && !edge.saturated) edge.tone = fit.tone_evidence();
   return edge;
 }
 }  // namespace
@@ -347,7 +348,7 @@ FittedEdge fit_edge(const Image& gray, const EdgeGuess& first_guess, int most_pi
       if (fit.step(i > 1) < settled_px && i > 1) break;
       if (!(moved_px(fit) < 2 * half_width_px)) return {};
     }
-    edge = described(axes, fit, guess.cell_px, guess.tells_curve);
+    edge = described(axes, fit, guess.cell_px, guess.needs_curve_evidence);
     const double from_start = std::max((edge.start_px - first_guess.start_px).norm(),
                                        (edge.end_px - first_guess.end_px).norm());
     if (!(from_start < 2 * furthest_px)) return {};

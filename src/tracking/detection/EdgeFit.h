@@ -38,8 +38,8 @@ struct EdgeGuess {
   bool bright_outside = true;
   double noise =
       0;  ///< SD of the picture's noise if known, gray levels; does not lower the quality
-  ToneCurve curve{};         ///< the camera's
-  bool tells_curve = false;  ///< whether evidence on the curve is required
+  ToneCurve curve{};                  ///< the camera's
+  bool needs_curve_evidence = false;  ///< whether evidence on the curve is required
 };
 
 struct FittedEdge {

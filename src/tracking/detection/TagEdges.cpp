@@ -48,7 +48,7 @@ Eigen::Vector2d crossing(const FittedEdge& one, const FittedEdge& other) {
   return one.start_px + t * a;
 }
 
-bool tells_blur(const FittedEdge& edge) {
+bool shows_blur(const FittedEdge& edge) {
   return edge.quality > 0 && !edge.saturated;
 }
 
@@ -165,9 +165,9 @@ MeasuredTag measure_tag(const Image& gray, const Intrinsics& camera, const TagPa
       return tag;
     }
   }
-  if (std::ranges::all_of(tag.edges, tells_blur))
+  if (std::ranges::all_of(tag.edges, shows_blur))
     for (std::size_t i = 0; i < 4; ++i) {
-      guesses[i].tells_curve = how.tells_curve;
+      guesses[i].needs_curve_evidence = how.needs_curve_evidence;
       take_edge(tag.edges[i], fit_edge(gray, informed(guesses[i], tag.edges, i), how.most_pixels));
     }
   return with_edges(std::move(tag), gray, pattern);
@@ -181,9 +181,9 @@ MeasuredTag measure_tag_again(const Image& gray, const Intrinsics& camera,
   for (std::size_t i = 0; i < 4; ++i) {
     guesses[i].blur_px = blur_px[1 - i % 2];
     guesses[i].blur_sd_px = relative_blur_sd * guesses[i].blur_px;
-    guesses[i].tells_curve = how.tells_curve;
+    guesses[i].needs_curve_evidence = how.needs_curve_evidence;
     const FittedEdge fitted = fit_edge(gray, guesses[i], how.most_pixels);
-    if (fitted.quality < least_edge_quality || !tells_blur(fitted))
+    if (fitted.quality < least_edge_quality || !shows_blur(fitted))
       return measure_tag(gray, camera, pattern, corners_px, how);
     tag.edges[i] = fitted;
   }

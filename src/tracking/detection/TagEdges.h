@@ -31,8 +31,8 @@ struct EdgeMeasuring {
   int most_pixels = 1000;  ///< per edge
   double noise = 0;        ///< SD of the picture's noise, gray levels; 0: unknown
   ToneCurve curve{};
-  bool tells_curve = false;  ///< whether evidence on the curve is required
-  bool whole = false;        ///< a tag with a missing edge is not measured: its quality is 0
+  bool needs_curve_evidence = false;  ///< whether evidence on the curve is required
+  bool whole = false;  ///< a tag with a missing edge is not measured: its quality is 0
 };
 
 /// Hidden or missing edges keep their expected places with a large error.

@@ -24,7 +24,7 @@ class ToneLearner {
 
   const ToneCurve& curve() const { return curve_; }
 
-  bool is_told() const { return !information_.isZero(); }
+  bool has_evidence() const { return !information_.isZero(); }
 
   /// May be repeated for the same picture while its edges move, measured with the last curve each
   /// time.

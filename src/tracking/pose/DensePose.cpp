@@ -40,13 +40,13 @@ std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera
   BodyFit fit = start;
   const double bias_variance = std::max(prior.sd_px * prior.sd_px, 1e-8);
   TagFit::MatrixShared matrix;
-  const auto goes_on = [&](int round) {
+  const auto continues = [&](int round) {
     return round < rounds ||
            (round < most_rounds && std::ranges::any_of(fits, [](const TagFit& tag) {
               return tag.explained() < all_explained || tag.reflects();
             }));
   };
-  for (int round = 0; goes_on(round); ++round) {
+  for (int round = 0; continues(round); ++round) {
     matrix.setZero();
     TagFit::VectorShared rhs = TagFit::VectorShared::Zero();
     matrix(6, 6) = 1 / bias_variance;

@@ -100,7 +100,7 @@ PrintedFace bare_face(const FaceFrame& frame, const Eigen::Array3f& color) {
   return face;
 }
 
-bool lies_on(const FaceFrame& frame, const Tag& tag) {
+bool is_on(const FaceFrame& frame, const Tag& tag) {
   const Vector3d from_face_m = tag_center_m(tag) - frame.center_m;
   return tag_normal(tag).dot(frame.normal()) > upright_cosine &&
          std::abs(from_face_m.dot(frame.normal())) < off_face_m &&
@@ -135,7 +135,7 @@ PrintedFace effector_face(const FaceFrame& frame, const MarkerBody& effector, do
   PrintedFace cells;
   Paper label;
   for (const Tag& tag : effector.tags) {
-    if (!lies_on(frame, tag)) continue;
+    if (!is_on(frame, tag)) continue;
     const TagPattern pattern = tag_pattern(effector.family, tag.id);
     const CellGrid grid(tag, pattern);
     label.add(frame, grid, pattern.n_cells);
@@ -148,7 +148,7 @@ PrintedFace effector_face(const FaceFrame& frame, const MarkerBody& effector, do
 }
 
 void check_on_box(const std::vector<FaceFrame>& frames, const Tag& tag) {
-  if (std::ranges::none_of(frames, [&](const FaceFrame& frame) { return lies_on(frame, tag); }))
+  if (std::ranges::none_of(frames, [&](const FaceFrame& frame) { return is_on(frame, tag); }))
     throw Error(
         fmt::format("the synthetic camera shows tags on the effector's faces, but tag {} "
                     "is on none of them; check size_m and the tag's corners",

@@ -49,7 +49,7 @@ TEST(JudgmentThreshold, IsAMeanOverPeopleApartByBlock) {
   EXPECT_NEAR(of(summary, "judgment_threshold", "harder", "200").value(), heavy_g / 10, 1e-6);
   EXPECT_EQ(of(summary, "judgment_threshold", "heavy", "", "third"), 400);
   EXPECT_EQ(of(summary, "judgment_threshold_n_missing", "heavy", ""), 0);
-  StaircaseFold comparisons;
+  StaircaseCollector comparisons;
   for (const SessionData& data : {one, other, third}) comparisons.add(data);
   EXPECT_EQ(comparisons.jnds().size(), 1u) << "judgments are no JNDs of comparisons";
 }
