@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/RunningAttempt.h"
-#include "tasks/SessionPlan.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft {
 

@@ -16,7 +16,7 @@
 #include "physics/DecouplingSimulator.h"
 #include "protocol/readers/ProtocolTables.h"
 #include "tasks/Comparison.h"
-#include "tasks/SessionPlan.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft {
 

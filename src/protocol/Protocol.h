@@ -12,7 +12,7 @@
 #include "experiment/Stage.h"
 #include "physics/scene/Scene.h"
 #include "protocol/study/AnalysisPlan.h"
-#include "tasks/SessionPlan.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft {
 

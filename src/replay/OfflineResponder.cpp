@@ -15,8 +15,8 @@
 #include "responders/Responder.h"
 #include "responders/decision/KnownPlan.h"
 #include "responders/perception/SeenGeometry.h"
-#include "tasks/SessionPlan.h"
 #include "tasks/Task.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft {
 

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "tasks/BlockKeys.h"
 #include "tasks/Judgment.h"
 #include "tasks/Task.h"
 #include "tasks/TaskRun.h"
+#include "tasks/blocks/BlockKeys.h"
 
 namespace heft {
 

@@ -13,10 +13,10 @@
 
 #include "base/Random.h"
 #include "psychophysics/ProcedureTypes.h"
-#include "tasks/BlockKeys.h"
-#include "tasks/Staircases.h"
 #include "tasks/Task.h"
 #include "tasks/TaskRun.h"
+#include "tasks/blocks/BlockKeys.h"
+#include "tasks/blocks/Staircases.h"
 
 namespace heft {
 

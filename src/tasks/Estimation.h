@@ -12,10 +12,10 @@
 
 #include "base/Random.h"
 #include "experiment/ScreenTexts.h"
-#include "tasks/BlockKeys.h"
 #include "tasks/Judgment.h"
 #include "tasks/Task.h"
 #include "tasks/TaskRun.h"
+#include "tasks/blocks/BlockKeys.h"
 
 namespace heft {
 

@@ -15,10 +15,10 @@
 
 #include "base/Random.h"
 #include "experiment/ScreenTexts.h"
-#include "tasks/BlockKeys.h"
-#include "tasks/Staircases.h"
 #include "tasks/Task.h"
 #include "tasks/TaskRun.h"
+#include "tasks/blocks/BlockKeys.h"
+#include "tasks/blocks/Staircases.h"
 
 namespace heft {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/Random.h"
-#include "tasks/BlockKeys.h"
 #include "tasks/Task.h"
 #include "tasks/TaskRun.h"
+#include "tasks/blocks/BlockKeys.h"
 
 namespace heft {
 

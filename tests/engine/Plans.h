@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "psychophysics/ProcedureKinds.h"
-#include "tasks/SessionPlan.h"
 #include "tasks/Tasks.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft::testing {
 

@@ -7,8 +7,8 @@
 #include "base/Error.h"
 #include "experiment/ScreenTexts.h"
 #include "protocol/readers/Files.h"
-#include "tasks/SessionPlan.h"
 #include "tasks/Tasks.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft {
 namespace {

@@ -11,7 +11,7 @@
 #include "responders/ResponderParameters.h"
 #include "responders/decision/KnownPlan.h"
 #include "tasks/Comparison.h"
-#include "tasks/SessionPlan.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft {
 namespace {

@@ -11,7 +11,7 @@
 #include "engine/RunningAttempt.h"
 #include "session/Protocols.h"
 #include "tasks/Offers.h"
-#include "tasks/SessionPlan.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft {
 namespace {

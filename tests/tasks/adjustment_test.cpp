@@ -14,7 +14,7 @@
 #include "replay/Replay.h"
 #include "replay/StoredSession.h"
 #include "tasks/Plans.h"
-#include "tasks/SessionPlan.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft {
 namespace {

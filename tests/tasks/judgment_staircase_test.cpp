@@ -7,7 +7,7 @@
 #include "psychophysics/Constant.h"
 #include "psychophysics/UpDown.h"
 #include "tasks/Judgment.h"
-#include "tasks/SessionPlan.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft {
 namespace {

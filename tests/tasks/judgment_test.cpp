@@ -7,7 +7,7 @@
 #include <map>
 
 #include "tasks/Plans.h"
-#include "tasks/SessionPlan.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft {
 namespace {

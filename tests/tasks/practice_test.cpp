@@ -1,5 +1,5 @@
 // Practice before the trials of a block: how long it lasts, what it leaves untouched, feedback.
-#include "tasks/Practice.h"
+#include "tasks/blocks/Practice.h"
 
 #include <gmock/gmock.h>
 

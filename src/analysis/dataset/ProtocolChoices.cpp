@@ -8,7 +8,7 @@
 
 #include "base/Error.h"
 #include "protocol/study/StudyPlan.h"
-#include "tasks/SessionPlan.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft {
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "experiment/Rows.h"
-#include "tasks/SessionPlan.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft {
 

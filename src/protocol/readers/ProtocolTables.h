@@ -14,7 +14,7 @@
 #include "protocol/toml/TomlDocument.h"
 #include "psychophysics/Interleaving.h"
 #include "psychophysics/ProcedureKinds.h"
-#include "tasks/Staircases.h"
+#include "tasks/blocks/Staircases.h"
 
 namespace heft {
 

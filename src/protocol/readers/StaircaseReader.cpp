@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "protocol/readers/ProtocolTables.h"
-#include "tasks/Staircases.h"
+#include "tasks/blocks/Staircases.h"
 
 namespace heft {
 
@@ -96,8 +96,7 @@ std::vector<ReferenceStaircase> read_staircases_of(TableReader& table,
   std::string condition;
   bool paired = false;
   std::optional<double> start_below;
-  if (rules.reference == Reference::required && !is_object)
-    table.require({"reference_g"});
+  if (rules.reference == Reference::required && !is_object) table.require({"reference_g"});
   table.read("reference_g", reference_g, above_zero);
   if (is_object && table.has("reference_g"))
     table.mistake("reference_g",

@@ -10,7 +10,7 @@
 #include "experiment/ScreenTexts.h"
 #include "protocol/readers/Files.h"
 #include "protocol/toml/TableReader.h"
-#include "tasks/SessionPlan.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "responders/decision/Decision.h"
-#include "tasks/SessionPlan.h"
+#include "tasks/blocks/SessionPlan.h"
 
 namespace heft {
 

@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "experiment/ScreenTexts.h"
-#include "tasks/Practice.h"
-#include "tasks/Staircases.h"
 #include "tasks/TaskRun.h"
+#include "tasks/blocks/Practice.h"
+#include "tasks/blocks/Staircases.h"
 
 namespace heft {
 

@@ -1,4 +1,4 @@
-#include "tasks/BlockKeys.h"
+#include "tasks/blocks/BlockKeys.h"
 
 #include <fmt/format.h>
 

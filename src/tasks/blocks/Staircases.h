@@ -12,7 +12,7 @@
 #include "experiment/Rows.h"
 #include "psychophysics/Interleaving.h"
 #include "psychophysics/Procedure.h"
-#include "tasks/BlockKeys.h"
+#include "tasks/blocks/BlockKeys.h"
 
 namespace heft {
 

@@ -1,4 +1,4 @@
-#include "tasks/Staircases.h"
+#include "tasks/blocks/Staircases.h"
 
 #include <fmt/format.h>
 

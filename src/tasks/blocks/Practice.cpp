@@ -1,4 +1,4 @@
-#include "tasks/Practice.h"
+#include "tasks/blocks/Practice.h"
 
 #include <fmt/format.h>
 
