@@ -1,10 +1,12 @@
 // Comparison task (paper, 4.2): which of two cubes, a reference and a comparison, is heavier, or no
-// difference; in a forced choice (answers = "heavier") there is no such third answer; or only
-// whether they are the same or different (answers = "same_different"). The reference may be a real
-// object beside the board, which the participant lifts, reports to have lifted, and compares with
-// the only cube. Levels come from interleaved staircases. Catch trials have a difference of 0 and
-// update no staircase; a fixed number of them is drawn in shuffled blocks, so that each participant
-// gets the planned number for each reference, spread over the session.
+// difference. Other answers: tasks/blocks/Answers.h.
+//
+// The reference may be a real object beside the board. The participant lifts it, reports to have
+// lifted it, and compares it with the only cube.
+//
+// Levels come from interleaved staircases. Catch trials have a difference of 0 and update no
+// staircase. A fixed number of them is drawn in shuffled blocks, so that each participant gets the
+// planned number for each reference, spread over the session.
 #pragma once
 
 #include <optional>
@@ -15,25 +17,11 @@
 #include "psychophysics/ProcedureTypes.h"
 #include "tasks/Task.h"
 #include "tasks/TaskRun.h"
+#include "tasks/blocks/Answers.h"
 #include "tasks/blocks/BlockKeys.h"
 #include "tasks/blocks/Staircases.h"
 
 namespace heft {
-
-/// What a participant may answer: the heavier cube or no difference (the paper); always a cube; or
-/// whether the cubes are equally heavy, without a cube.
-///
-/// The response of a forced choice to every procedure is "the comparison was chosen". For a
-/// comparison that is heavier this is a correct choice; for one that is lighter it is an incorrect
-/// one, so that levels of both signs make one psychometric function; at a difference of 0, where
-/// nothing is correct, it is a coin, as the side of the reference is. That of a same-different task
-/// is "different", for levels of either sign.
-enum class ComparisonAnswers { heavier_or_none, heavier, same_different };
-template <>
-struct EnumNames<ComparisonAnswers> {
-  static constexpr std::array<std::string_view, 3> names{"heavier_or_none", "heavier",
-                                                         "same_different"};
-};
 
 /// Which answers are positive, that is, move the staircase down.
 enum class PositiveAnswer { any_choice, correct_choice };

@@ -1,8 +1,5 @@
 #include "tasks/Introduction.h"
 
-#include <algorithm>
-#include <limits>
-
 namespace heft {
 
 namespace {
@@ -52,19 +49,6 @@ std::vector<ScreenState> Introduction::fullest_screens() {
   ScreenState screen{.n_slots = 2, .try_again = true};
   screen.offer = Offer{};
   return {screen};
-}
-
-int heaviest_slot(std::span<const double> values, std::span<const int> wrong_slots) {
-  const auto ruled_out = wrong_slots.last(std::min(wrong_slots.size(), values.size() - 1));
-  int best_slot = 0;
-  double best = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const int slot = static_cast<int>(i) + 1;
-    if (std::ranges::find(ruled_out, slot) != ruled_out.end() || values[i] <= best) continue;
-    best_slot = slot;
-    best = values[i];
-  }
-  return best_slot;
 }
 
 }  // namespace heft

@@ -17,6 +17,7 @@
 #include "experiment/ScreenTexts.h"
 #include "tasks/Task.h"
 #include "tasks/TaskRun.h"
+#include "tasks/blocks/Answers.h"
 #include "tasks/blocks/BlockKeys.h"
 #include "tasks/blocks/Staircases.h"
 
@@ -65,20 +66,6 @@ struct PlannedCubes {
 /// Each set with each technique as often as it has trials, in one random order.
 std::vector<PlannedCubes> shuffled(const std::vector<CubeSet>& sets,
                                    const std::vector<TechniqueTrials>& trials, RandomStream stream);
-
-/// What a choice responds to a procedure: yes or no, or the cube that is heavier; none: neither.
-enum class Meaning { positive, negative, left, right, none };
-template <>
-struct EnumNames<Meaning> {
-  static constexpr std::array<std::string_view, 5> names{"positive", "negative", "left", "right",
-                                                         "none"};
-};
-
-/// Of each choice, by its value.
-using Meanings = std::vector<std::pair<std::string, Meaning>>;
-
-/// @param choice null: no answer  @return none: it has no meaning
-std::optional<Meaning> meaning_of(const Meanings& responses, const AnswerChoice* choice);
 
 struct Judgment {
   static constexpr std::array actions{ActionSpec{.kind = "judge", .value = true}};
@@ -151,10 +138,7 @@ struct Judgment {
     ConfigMistakes mistakes_in_responses() const;
   };
 
-  struct Offer {
-    FormQuestion question;
-    Meanings responses = {};  ///< empty: to no procedure
-  };
+  using Offer = JudgmentOffer;
 
   class Run : public TaskRun {
    public:

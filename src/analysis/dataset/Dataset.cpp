@@ -14,6 +14,7 @@
 #include "protocol/readers/Files.h"
 #include "record/export/Export.h"
 #include "tasks/Comparison.h"
+#include "tasks/Judgment.h"
 
 namespace heft {
 

@@ -16,8 +16,7 @@
 #include "inference/checks/PredictiveCheck.h"
 #include "protocol/study/AnalysisPlan.h"
 #include "record/reader/LogReader.h"
-#include "tasks/Comparison.h"
-#include "tasks/Judgment.h"
+#include "tasks/blocks/Answers.h"
 
 namespace heft {
 
@@ -102,7 +101,7 @@ struct SessionData {
   /// Those of its conditions that the paper measured, by law and parameters.
   std::map<std::string, published::Condition> published_conditions{};
   /// What its judgments ask, and what the answers respond to procedures, by block.
-  std::map<std::string, Judgment::Offer> judgments{};
+  std::map<std::string, JudgmentOffer> judgments{};
 
   /// A model answered at least one of its trials; where there is none, was to answer.
   bool simulated() const { return model().has_value(); }

@@ -4,6 +4,7 @@
 #include "analysis/Figures.h"
 #include "analysis/MadeUpSessions.h"
 #include "analysis/charts/Charts.h"
+#include "tasks/Judgment.h"
 
 namespace heft {
 namespace {
