@@ -8,11 +8,15 @@
 
 #include "base/Names.h"
 #include "physics/auto/Choice.h"
-#include "physics/boxes/BoxesSimulator.h"
-#include "physics/bullet/BulletSimulator.h"
-#include "physics/push/PushSimulator.h"
 
 namespace heft {
+
+std::unique_ptr<DecouplingSimulator> make_boxes();
+std::unique_ptr<DecouplingSimulator> make_bullet_ea();
+std::unique_ptr<DecouplingSimulator> make_bullet_x();
+std::unique_ptr<DecouplingSimulator> make_bullet_lx();
+std::unique_ptr<DecouplingSimulator> make_push();
+std::unique_ptr<DecouplingSimulator> make_quasi_static();
 
 namespace {
 // Simulators that fail, for studies: see linked_simulator.

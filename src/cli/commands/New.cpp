@@ -88,12 +88,12 @@ const std::vector<Kind>& kinds() {
       {"simulator",
        "a simulator of the clone and the cubes",
        "springs",
-       {{"simulator.h.in", "src/physics/@name@/@Name@Simulator.h"},
-        {"simulator.cpp.in", "src/physics/@name@/@Name@Simulator.cpp"},
+       {{"simulator.cpp.in", "src/physics/@name@/@Name@Simulator.cpp"},
         {"simulator_test.cpp.in", "tests/physics/@name@_test.cpp"}},
        {{"src/physics/DecouplingSimulator.cpp", "std::to_array<SimulatorEntry>({", "\n});",
-         "\n    {\"@name@\", \"TODO its method\", make_@name@, {.straight = true}},",
-         "physics/@name@/@Name@Simulator.h"}},
+         "\n    {\"@name@\", \"TODO its method\", make_@name@, {.straight = true}},"},
+        {"src/physics/DecouplingSimulator.cpp", "make_quasi_static();", "\n",
+         "\nstd::unique_ptr<DecouplingSimulator> make_@name@();"}},
        "@Name@Simulator.PushesACubeAlong"}};
   return all;
 }
@@ -251,7 +251,8 @@ void add_to_source(const Kind& kind, const std::string& name) {
     const std::string path = (source / entry.path).string();
     const std::string added =
         entry.text.ends_with(".in") ? filled(entry.text) : names.in(entry.text);
-    texts[path] = with_entry(read_text_file(path), entry, added, path, names);
+    const std::string before = texts.contains(path) ? texts[path] : read_text_file(path);
+    texts[path] = with_entry(before, entry, added, path, names);
   }
   write_all(texts);
   for (const NewFile& file : kind.files) print("wrote    {}\n", names.in(file.path));

@@ -1,10 +1,15 @@
-#include "physics/boxes/BoxesSimulator.h"
-
+// `boxes`: the decoupling technique on a contact solver for a few boxes on a table. Law:
+// physics/coupling/CouplingLaw.h; contacts: boxes/BoxWorld.h.
+//
+// Exact coupling in translation. The orientation is locked to the effector where the torsional
+// spring is stiff enough (as the paper's), otherwise coupled exactly about each axis. Coulomb
+// friction on its disk.
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "base/Pose.h"
+#include "physics/DecouplingSimulator.h"
 #include "physics/boxes/BoxWorld.h"
 #include "physics/coupling/CouplingLaw.h"
 #include "physics/scene/Scene.h"

@@ -1,8 +1,9 @@
-#include "physics/bullet/BulletSimulator.h"
-
+// The decoupling technique on Bullet's contact solver. Law and schemes:
+// physics/coupling/CouplingLaw.h.
 #include <optional>
 
 #include "base/Pose.h"
+#include "physics/DecouplingSimulator.h"
 #include "physics/bullet/ContactWorld.h"
 #include "physics/coupling/CouplingLaw.h"
 #include "physics/scene/Scene.h"
@@ -113,14 +114,19 @@ WorldState BulletSimulator::state() const {
 }
 }  // namespace
 
+// Implicit Euler in translation and rotation.
 std::unique_ptr<DecouplingSimulator> make_bullet_ea() {
   return std::make_unique<BulletSimulator>(CouplingScheme::implicit_euler, false);
 }
 
+// The exact sampled oscillator in translation and rotation.
 std::unique_ptr<DecouplingSimulator> make_bullet_x() {
   return std::make_unique<BulletSimulator>(CouplingScheme::exact, false);
 }
 
+// Exact in translation, the clone's orientation locked to the effector's. The paper's torsional
+// spring (150 N m/rad on 1e-5 kg m^2) is nearly that stiff. A scene's torsional stiffness has no
+// effect.
 std::unique_ptr<DecouplingSimulator> make_bullet_lx() {
   return std::make_unique<BulletSimulator>(CouplingScheme::exact, true);
 }

@@ -1,9 +1,12 @@
-#include "physics/push/PushSimulator.h"
-
+// `push`: clone and cube along one straight stroke, with one degree of freedom, exact between the
+// effector's poses. The free clone and the clone that slides with the cube are damped oscillators
+// in closed form; the motion is divided at contact, slip, stop and separation. Coulomb friction,
+// rigid contacts, no restitution. Throws OutsideModel for all other movements.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "physics/DecouplingSimulator.h"
 #include "physics/push/Oscillation.h"
 #include "physics/push/StraightStroke.h"
 

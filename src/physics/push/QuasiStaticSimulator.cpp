@@ -1,6 +1,9 @@
+// `quasi_static`: `push` without inertia. The clone lags by min(x_hand, mu M g / k), where x_hand
+// is the distance that the effector has moved since the clone touched the cube (paper,
+// section 3.2).
 #include <algorithm>
 
-#include "physics/push/PushSimulator.h"
+#include "physics/DecouplingSimulator.h"
 #include "physics/push/StraightStroke.h"
 
 namespace heft {
