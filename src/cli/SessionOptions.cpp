@@ -288,6 +288,21 @@ void say_declined(const SessionResult& result, const std::string& db) {
       "trial; this is saved in {}\n",
       result.session_id, db);
 }
+
+// Always throws.
+void report_unfinished(const SessionResult& result, const std::string& db) {
+  say_head(result, db);
+  const std::string resume =
+      fmt::format("heft resume --db {} --session {}", shell_quoted(db), result.session_id);
+  if (result.end == RunEnd::stopped)
+    throw Error("stopped; everything up to the last answer is saved. Continue with: " + resume,
+                ExitCode::interrupted);
+  ring();
+  throw Error(
+      fmt::format("the session is paused: one trial was void {} times. Check the "
+                  "camera and the board, then continue with: {}",
+                  max_voids, resume));
+}
 }  // namespace
 
 void say_finished(const SessionResult& result, const std::string& db) {
@@ -338,19 +353,8 @@ SessionResult run_session(const CommandedSession& session,
   console.reset();
   if (events) report_dropped(*events, session.events->text);
   back_up_and_report(session.db, session.config->config.backup, result.session_id);
-  const std::string resume =
-      fmt::format("heft resume --db {} --session {}", shell_quoted(session.db), result.session_id);
-  if (result.end == RunEnd::stopped || result.end == RunEnd::paused) say_head(result, session.db);
-  if (result.end == RunEnd::stopped)
-    throw Error("stopped; everything up to the last answer is saved. Continue with: " + resume,
-                ExitCode::interrupted);
-  if (result.end == RunEnd::paused) {
-    ring();
-    throw Error(
-        fmt::format("the session is paused: one trial was void {} times. Check the "
-                    "camera and the board, then continue with: {}",
-                    max_voids, resume));
-  }
+  if (result.end == RunEnd::stopped || result.end == RunEnd::paused)
+    report_unfinished(result, session.db);
   return result;
 }
 

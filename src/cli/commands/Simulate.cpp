@@ -51,7 +51,7 @@ void print_start(const SimulationRequest& request, const ParticipantNumbers& num
         simulated_participant(n_there), simulated_participant(numbers.first));
 }
 
-void simulate_participants(const SimulateOptions& options) {
+SimulationRequest request_for(const SimulateOptions& options) {
   if (options.shard && !options.seed)
     throw Error("--shard needs --seed N, the same for all shards", ExitCode::usage);
   if (options.level == "surrogate" && options.frames)
@@ -67,6 +67,11 @@ void simulate_participants(const SimulateOptions& options) {
   request.jobs = options.jobs;
   request.keep_frames = options.frames;
   request.shard = options.shard;
+  return request;
+}
+
+void simulate_participants(const SimulateOptions& options) {
+  SimulationRequest request = request_for(options);
   say("{}, protocol {}, responder {}, seed {}\n", counted(request.participants, "participant"),
       request.config->protocol->name, to_text(request.config->config.responder),
       request.config->seed);

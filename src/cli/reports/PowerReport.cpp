@@ -244,32 +244,50 @@ std::string as_json(const std::vector<ModelPower>& all) {
   return ordered_json{{"models", models}}.dump(2) + "\n";
 }
 
+namespace {
+// Blocks of gnuplot's data, $h0, $h1..., and the names of what they hold.
+struct ChartData {
+  std::vector<std::string> names;
+  std::string text;
+};
+
+ChartData data_of_hypotheses(const Power& power) {
+  ChartData data;
+  for (const HypothesisPower& one : power.sizes.back().hypotheses) {
+    data.text += fmt::format("$h{} << END\n", data.names.size());
+    for (const PowerAtSize& size : power.sizes)
+      if (const HypothesisPower* at = at_size(size, one.name))
+        data.text += fmt::format("{} {} {} {}\n", size.participants, 100 * share_of(*at),
+                                 100 * at->interval.low, 100 * at->interval.high);
+    data.text += "END\n";
+    data.names.push_back(one.name);
+  }
+  return data;
+}
+
+// As $f0, $f1...
+ChartData data_of_figures(const Power& power) {
+  ChartData data;
+  for (const EstimatePrecision& one : power.sizes.back().estimates) {
+    if (!is_main(one) || one.printed.n_hits == 0) continue;
+    data.text += fmt::format("$f{} << END\n", data.names.size());
+    for (const PowerAtSize& size : power.sizes)
+      if (const EstimatePrecision* at = at_size(size, one); at && at->printed.n_hits > 0)
+        data.text += fmt::format("{} {} {} {}\n", size.participants, at->median_value,
+                                 at->median_low, at->median_high);
+    data.text += "END\n";
+    data.names.push_back(name_of(one));
+  }
+  return data;
+}
+}  // namespace
+
 void draw_power(const ModelPower& found, const std::string& file) {
   constexpr int width_px = 900, plot_px = 330, bottom_px = 110, key_line_px = 18;
   const Power& power = found.power;
-  std::vector<std::string> hypotheses, figures;
-  std::string data;
-  for (const HypothesisPower& one : power.sizes.back().hypotheses) {
-    data += fmt::format("$h{} << END\n", hypotheses.size());
-    for (const PowerAtSize& size : power.sizes)
-      if (const HypothesisPower* at = at_size(size, one.name))
-        data += fmt::format("{} {} {} {}\n", size.participants, 100 * share_of(*at),
-                            100 * at->interval.low, 100 * at->interval.high);
-    data += "END\n";
-    hypotheses.push_back(one.name);
-  }
-  for (const EstimatePrecision& one : power.sizes.back().estimates) {
-    if (!is_main(one) || one.printed.n_hits == 0) continue;
-    data += fmt::format("$f{} << END\n", figures.size());
-    for (const PowerAtSize& size : power.sizes)
-      if (const EstimatePrecision* at = at_size(size, one); at && at->printed.n_hits > 0)
-        data += fmt::format("{} {} {} {}\n", size.participants, at->median_value, at->median_low,
-                            at->median_high);
-    data += "END\n";
-    figures.push_back(name_of(one));
-  }
+  const ChartData hypotheses = data_of_hypotheses(power), figures = data_of_figures(power);
   const int largest = power.sizes.back().participants;
-  const int n_keys = static_cast<int>(std::max(hypotheses.size(), figures.size()));
+  const int n_keys = static_cast<int>(std::max(hypotheses.names.size(), figures.names.size()));
   const int top_px = 50 + key_line_px * n_keys;
   const auto panel = [&](double left, double right, const std::string& axes,
                          const std::string& terms) {
@@ -290,12 +308,13 @@ void draw_power(const ModelPower& found, const std::string& file) {
                     "intervals; dotted: 80 %. Right: median figure and median interval. "
                     "Made by: heft power (seed {})",
                     power.n_studies, found.model, found.seed)}) +
-           data + "set multiplot\n" +
+           hypotheses.text + figures.text + "set multiplot\n" +
            panel(0.1, 0.47, "set ylabel '% of studies that support it'\nset yrange [0:100]\n",
                  "80 with lines dashtype 3 linecolor '#999999' notitle" +
-                     (hypotheses.empty() ? "" : ", " + lines_of(hypotheses, "h", largest))) +
+                     (hypotheses.names.empty() ? ""
+                                               : ", " + lines_of(hypotheses.names, "h", largest))) +
            panel(0.59, 0.97, "set ylabel 'g'\nset logscale y\nset yrange [*:*]\n",
-                 figures.empty() ? "NaN notitle" : lines_of(figures, "f", largest)) +
+                 figures.names.empty() ? "NaN notitle" : lines_of(figures.names, "f", largest)) +
            "unset multiplot\n";
   });
 }

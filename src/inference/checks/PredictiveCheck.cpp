@@ -306,26 +306,33 @@ std::size_t studies_for(std::span<const PersonRuns> people) {
   });
   return std::clamp<std::size_t>(100'000 / people.size(), 100, any_bayesian ? 100 : 500);
 }
-}  // namespace
 
-const PredictedFigure& PredictiveCheck::farthest() const {
-  return *std::ranges::max_element(
-      figures, {}, [](const PredictedFigure& one) { return std::abs(one.deviation()); });
-}
+// Of each person and staircase: whether it ended.
+using Ended = std::vector<std::vector<bool>>;
 
-PredictiveCheck check_predictions(const MixedFit& fit, std::span<const PersonRuns> people,
-                                  std::span<const double> edges_g, std::uint64_t seed) {
-  StudyTally seen(edges_g);
-  std::vector<std::vector<bool>> ended;
+Ended walk_all_again(std::span<const PersonRuns> people, StudyTally& seen) {
+  Ended ended;
   for (const PersonRuns& person : people) {
     std::vector<bool>& of_person = ended.emplace_back();
     for (const StaircaseRun& run : person.staircases) of_person.push_back(walk_again(run, seen));
     seen.add_catch(person.n_catch, person.n_catch_none);
     seen.end_person();
   }
+  return ended;
+}
+
+// By study.
+struct PredictedStudies {
+  std::vector<std::vector<double>> figures;
+  std::vector<std::vector<Shares>> by_level;
+};
+
+PredictedStudies simulate_studies(const MixedFit& fit, std::span<const PersonRuns> people,
+                                  const Ended& ended, std::span<const double> edges_g,
+                                  std::uint64_t seed) {
   const std::size_t n_studies = studies_for(people);
-  std::vector<std::vector<double>> predicted(n_studies);
-  std::vector<std::vector<Shares>> by_level(n_studies);
+  PredictedStudies predicted{std::vector<std::vector<double>>(n_studies),
+                             std::vector<std::vector<Shares>>(n_studies)};
   in_parallel(n_studies, 20, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       SimulatedStudy study(fit, seed, i);
@@ -337,10 +344,24 @@ PredictiveCheck check_predictions(const MixedFit& fit, std::span<const PersonRun
         study.catch_trials(people[k].n_catch, tally);
         tally.end_person();
       }
-      predicted[i] = tally.figures();
-      by_level[i] = tally.by_level();
+      predicted.figures[i] = tally.figures();
+      predicted.by_level[i] = tally.by_level();
     }
   });
+  return predicted;
+}
+}  // namespace
+
+const PredictedFigure& PredictiveCheck::farthest() const {
+  return *std::ranges::max_element(
+      figures, {}, [](const PredictedFigure& one) { return std::abs(one.deviation()); });
+}
+
+PredictiveCheck check_predictions(const MixedFit& fit, std::span<const PersonRuns> people,
+                                  std::span<const double> edges_g, std::uint64_t seed) {
+  StudyTally seen(edges_g);
+  const Ended ended = walk_all_again(people, seen);
+  const auto [predicted, by_level] = simulate_studies(fit, people, ended, edges_g, seed);
   PredictiveCheck check;
   for (std::size_t place = 0; place < by_level.front().size(); ++place)
     check.by_level.push_back({band(by_level, place, &Shares::heavier),
