@@ -141,6 +141,21 @@ class Figures(Integrity):
         self.assertIn(head, (report / "report.html").read_text())
 
 
+class Several(Integrity):
+    def test_what_they_have_in_common_is_said_once(self):
+        self.people()
+        replayed = self.run_heft("replay", "--db", self.db).stdout.splitlines()
+        self.assertRegex(replayed[0], r"^sessions 1 to 3: verified: \d+ events folded, \d+ rows in \d+ attempts")
+        self.assertEqual(len(replayed), 2, replayed)
+        listed = self.run_heft("list", "--db", self.db).stdout.splitlines()
+        self.assertRegex(listed[0], r"^all: protocol \w+, purpose \w+, state finished$")
+        self.assertLessEqual(max(map(len, listed)), 80)
+        # One that differs has a line of its own.
+        change(self.db, "update trial set outcome = 'none' where session_id = 2")
+        replayed = self.run_heft("replay", "--db", self.db, expect=5).stdout
+        self.assertRegex(replayed, r"session 1: verified.*\nsession 2: DIVERGED(.*\n)+session 3: verified")
+
+
 class Witness(Integrity):
     def test_a_head_is_printed_listed_and_confirmed(self):
         done = self.session(self.db, "--backup", self.folder / "copies")
@@ -286,7 +301,7 @@ class Privacy(Integrity):
 
     # By everything but the measurements: ids, seeds, order of rows, dates. A simulated participant's
     # drawn parameters identify them.
-    def test_a_pseudonymised_export_tells_nothing_about_who_took_part_when(self):
+    def test_a_pseudonymised_export_shows_nothing_about_who_took_part_when(self):
         n, n_exports = 26, 4
         self.run_heft("simulate", TINY, "--participants", n, "--db", self.db, "--seed", SEED)
         earlier = self.exported("earlier")

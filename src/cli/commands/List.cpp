@@ -16,13 +16,16 @@ namespace heft::cli {
 namespace {
 using Line = std::vector<std::string>;
 
-const Line headings{"session",     "participant", "protocol", "purpose",
-                    "state",       "trials",      "minutes",  "pictures dropped, late",
-                    "doubled",     "started",     "head",     "study",
+const Line headings{"session",     "participant",   "protocol", "purpose",
+                    "state",       "trials",        "minutes",  "pictures dropped, late",
+                    "doubled",     "started (UTC)", "head",     "study",
                     "group, order"};
 
-std::string seconds_of(const std::string& utc) {
-  return utc.substr(0, utc.find('.')) + (utc.find('.') == std::string::npos ? "" : "Z");
+// "2026-11-28 09:30" of "2026-11-28T09:30:12.345Z".
+std::string minutes_of(const std::string& utc) {
+  constexpr std::size_t day = 10, minutes = 11, length = 5;
+  return utc.size() < minutes + length ? utc
+                                       : utc.substr(0, day) + ' ' + utc.substr(minutes, length);
 }
 
 double percent(int n, int of) {
@@ -54,7 +57,7 @@ Line line_of(const SessionFacts& facts) {
             fmt::format("{:.0f}", facts.duration_s / 60),
             pictures_text(facts.pictures),
             doubled_text(facts.pictures),
-            seconds_of(header.started_utc),
+            minutes_of(header.started_utc),
             short_head(facts.head),
             "",
             ""};
@@ -66,14 +69,27 @@ Line line_of(const SessionFacts& facts) {
   return line;
 }
 
+// What several sessions have in common is said once; its column is left empty.
+std::string in_common(std::vector<Line>& lines) {
+  if (lines.size() < 3) return "";
+  std::vector<std::string> common;
+  for (const std::size_t k : {2u, 3u, 4u}) {  // protocol, purpose, state
+    const auto is_first = [&](const Line& line) { return line[k] == lines[1][k]; };
+    if (!std::all_of(lines.begin() + 1, lines.end(), is_first)) continue;
+    common.push_back(fmt::format("{} {}", headings[k], lines[1][k]));
+    for (std::size_t i = 1; i < lines.size(); ++i) lines[i][k].clear();
+  }
+  return common.empty() ? "" : fmt::format("all: {}\n", fmt::join(common, ", "));
+}
+
 std::string in_columns(std::vector<Line> lines) {
   for (Line& line : lines)
     for (std::string& cell : line) cell = escaped_line(cell);
+  std::string text = in_common(lines);
   std::vector<int> widths(lines.front().size());
   for (std::size_t i = 1; i < lines.size(); ++i)
     for (std::size_t k = 0; k < widths.size(); ++k)
       widths[k] = std::max(widths[k], columns_of(lines[i][k]));
-  std::string text;
   for (const Line& line : lines) {
     std::string row;
     for (std::size_t k = 0; k < widths.size(); ++k) {

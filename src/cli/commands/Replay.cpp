@@ -98,55 +98,6 @@ std::vector<std::int64_t> chosen_sessions(const LogReader& reader, const ReplayO
   return ids;
 }
 
-void print_divergence(const Divergence& divergence) {
-  const std::string trial =
-      divergence.trial_number > 0 ? fmt::format("trial {}", divergence.trial_number) : "no trial";
-  print("  first divergence: {}, at {:.6f} s: {}\n    logged:   {}\n    replayed: {}\n", trial,
-        divergence.t_s, divergence.what, divergence.logged, divergence.replayed);
-}
-
-std::string how_frames_were_checked(const Verification& found) {
-  if (found.n_frames == 0) return "no frames logged, so the simulator was not checked";
-  const int n_same_edition = found.n_frames - found.n_other_edition;
-  std::vector<std::string> how;
-  if (found.n_other_edition > 0)
-    how.push_back(
-        fmt::format("{} of them logged with an edition of the simulator that this heft lacks: "
-                    "only measured, they differ by up to {:.3g} m",
-                    found.n_other_edition, found.largest_of_other_edition_m));
-  if (found.n_other_build > 0)
-    how.push_back(fmt::format(
-        "{}logged by another build: poses within 1e-6 m required, largest difference {:.3g} m",
-        found.n_other_build == found.n_frames ? ""
-                                              : fmt::format("{} of them ", found.n_other_build),
-        found.largest_difference_m));
-  if (const int n_same = n_same_edition - found.n_other_build; n_same > 0)
-    how.push_back(n_same == found.n_frames
-                      ? "equal bits required"
-                      : fmt::format("of the other {} equal bits required", n_same));
-  return fmt::format("{} simulated again, {}", counted(found.n_frames, "frame"),
-                     fmt::join(how, "; "));
-}
-
-// @return whether the log agrees with its events
-bool verify(const LogReader& reader, std::int64_t session_id) {
-  ProgressBar bar(fmt::format("session {}", session_id));
-  const Verification found = verify_session(reader, session_id, [&](double done) {
-    bar.update(done, fmt::format("{:.0f} %", 100 * done));
-  });
-  if (found.withdrawn && !found.first) {
-    print("session {}: withdrawn: it has no data any more\n", session_id);
-    return true;
-  }
-  const std::string verified =
-      found.ended ? "verified" : fmt::format("verified up to event {}, unfinished", found.n_events);
-  print("session {}: {}: {} events folded, {} rows in {} attempts compared; {}\n", session_id,
-        found.first ? "DIVERGED" : verified, found.n_events, found.n_rows, found.n_attempts,
-        how_frames_were_checked(found));
-  if (found.first) print_divergence(*found.first);
-  return !found.first;
-}
-
 // Fails before the first line of output if another build is needed. An unreadable row is reported
 // where it is verified.
 void require_simulators(const LogReader& reader, const std::string& db,
@@ -192,7 +143,7 @@ void verify_all(const LogReader& reader, const ReplayOptions& options) {
   try {
     const auto ids = chosen_sessions(reader, options);
     require_simulators(reader, options.db, ids);
-    for (const std::int64_t session_id : ids) same = verify(reader, session_id) && same;
+    print_verification(reader, ids, same);
     if (!options.session) same = none_is_missing(ids) && same;
   } catch (const OnlyForStudies&) {
     throw;

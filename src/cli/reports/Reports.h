@@ -48,6 +48,12 @@ nlohmann::ordered_json as_json(const SessionFacts& facts);
 std::vector<std::string> next_steps(const std::vector<SessionFacts>& sessions,
                                     const std::string& db);
 
+// Logs that are replayed, for heft replay.
+
+/// Verifies sessions and prints what was found. `same` becomes false where one contradicts its
+/// events, and is valid when this throws, too.
+void print_verification(const LogReader& reader, const std::vector<std::int64_t>& ids, bool& same);
+
 // Models that judge a log, for heft replay.
 
 struct JudgedLog {
