@@ -93,11 +93,53 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
   return Error(fmt::format("{}; see {} --help", what, name), ExitCode::usage);
 }
 
+// What a text is; options of one name have the same in all commands.
+std::string text_of(const std::string& option) {
+  static const std::map<std::string_view, std::string> texts{{"--backup", "FOLDER"},
+                                                             {"--board", "FILE"},
+                                                             {"--by", "COLUMN"},
+                                                             {"--camera", "SOURCE"},
+                                                             {"--camera-file", "FILE"},
+                                                             {"--chart", "FILE"},
+                                                             {"--db", "FILE"},
+                                                             {"--display-file", "FILE"},
+                                                             {"--effector", "FILE"},
+                                                             {"--events", "TARGET"},
+                                                             {"--figures", "FILE"},
+                                                             {"--free", "NAME=LOW..HIGH"},
+                                                             {"--guess", "RATE"},
+                                                             {"--key", "FILE"},
+                                                             {"--lapse", "RATE"},
+                                                             {"--model", "NAME[:FILE]"},
+                                                             {"--operator", "NAME"},
+                                                             {"--out", "PATH"},
+                                                             {"--participant", "ID"},
+                                                             {"--participants", "SIZES"},
+                                                             {"--person", "COLUMN"},
+                                                             {"--plan", "FILE"},
+                                                             {"--range", "LOW..HIGH"},
+                                                             {"--record-camera", "FOLDER"},
+                                                             {"--responder", "NAME[:FILE]"},
+                                                             {"--save", "FILE"},
+                                                             {"--search", "FOLDER"},
+                                                             {"--set", "KEY=VALUE"},
+                                                             {"--shard", "I/N"},
+                                                             {"--simulator", "NAME"},
+                                                             {"--stiffness", "LOW..HIGH"},
+                                                             {"--tracker", "NAME[:FILE]"},
+                                                             {"--trajectory", "FILE"},
+                                                             {"--view", "NAME[:FILE]"},
+                                                             {"--witness", "HEAD"}};
+  const auto found = texts.find(option);
+  return found == texts.end() ? "TEXT" : found->second;
+}
+
 std::string value_of(const CLI::Option& option) {
   if (option.get_items_expected_max() == 0 || !option.nonpositional()) return "";
   const std::string type = option.get_type_name();
   if (type.starts_with("INT") || type.starts_with("UINT")) return "N";
-  return type.starts_with("FLOAT") ? "NUMBER" : type;
+  if (type.starts_with("FLOAT")) return "NUMBER";
+  return type == "TEXT" ? text_of(option.get_name()) : type;
 }
 
 OptionDescription described(const CLI::Option& option) {

@@ -31,14 +31,18 @@ namespace {
 constexpr std::size_t help_column = 28, command_column = 14;
 constexpr std::ptrdiff_t screen_lines = 24;
 
-// An example as lines that a shell joins: broken between words, never within quotes.
+// An example as lines that a shell joins: broken between words, but neither within quotes nor
+// between an option and its value.
 std::string continued(std::string_view example, std::size_t width) {
   std::string result;
-  std::size_t line = 0, blank = 0;  // start of the line in the result, and its last unquoted blank
+  std::size_t line = 0, blank = 0;  // start of the line in the result, and the last place to break
   bool quoted = false;
-  for (const char c : example) {
+  for (std::size_t i = 0; i < example.size(); ++i) {
+    const char c = example[i];
     if (c == '\'' || c == '"') quoted = !quoted;
-    if (c == ' ' && !quoted && result.size() > line + 6) blank = result.size();
+    const bool follows_option = result.find(" --", result.rfind(' ')) != std::string::npos;
+    const bool is_value = follows_option && !example.substr(i + 1).starts_with('-');
+    if (c == ' ' && !quoted && !is_value && result.size() > line + 6) blank = result.size();
     result += c;
     if (result.size() - line + 2 <= width || blank <= line) continue;
     result.replace(blank, 1, " \\\n      ");
@@ -48,16 +52,29 @@ std::string continued(std::string_view example, std::size_t width) {
   return result;
 }
 
-// The text below the options, with commands and sentences wrapped to the terminal's width.
+bool is_prose(const std::string& line) {
+  return line.starts_with("  ") && !line.starts_with("   ") && !line.starts_with("  heft ");
+}
+
+// The text below the options, with commands and sentences wrapped to the terminal's width. A
+// sentence may be on several lines.
 std::string with_examples(const std::string& footer, std::size_t width) {
   std::istringstream lines(footer);
-  std::string result;
+  std::string result, prose;
+  const auto end_prose = [&] {
+    if (!prose.empty()) result += wrapped(prose, 2, width, 0);
+    prose.clear();
+  };
   for (std::string line; std::getline(lines, line);) {
-    const bool is_prose = !line.starts_with("   ") && line.size() > width;
-    result += line.starts_with("  heft ") ? continued(line, width) + '\n'
-              : is_prose                  ? wrapped(line, 2, width, 0)
-                                          : line + '\n';
+    if (is_prose(line)) {
+      prose += prose.empty() ? line : line.substr(1);
+      if (line.ends_with('.') || line.ends_with(':') || line.ends_with('"')) end_prose();
+      continue;
+    }
+    end_prose();
+    result += (line.starts_with("  heft ") ? continued(line, width) : line) + '\n';
   }
+  end_prose();
   return result;
 }
 

@@ -88,7 +88,7 @@ void add_analyse(Command& app) {
   command.add_flag("--json", options->json, "all results as JSON on stdout");
   command.add_flag("--tables", options->tables, "all tables instead of a summary");
   command.add_flag("--mix", options->mix,
-                   "analyze sessions of several purposes (main, pilot, test, simulated) together");
+                   "combine sessions of several purposes (main, pilot, test, simulated)");
   add_unverified(command, options->unverified);
   command.does([options] { analyse(*options); });
 }

@@ -360,7 +360,8 @@ void add_doctor(Command& app) {
       {"heft doctor", "heft doctor --list", "heft doctor --tracker camera:0",
        "heft doctor --tracker camera:0 --camera-file camera.yaml --board board.toml",
        "heft doctor --tracker camera:0 --latency", "heft doctor --responder simulated"});
-  command.add_option("--db", &options->db, "the log to check, and whose folder").shows_default();
+  command.add_option("--db", &options->db, "the log to check, with its folder and disk")
+      .shows_default();
   add_plug(command, "--tracker", options->given.tracker,
            "examine this camera: camera:N, video:FILE, frames:FOLDER");
   add_apparatus_options(command, options->given);

@@ -107,8 +107,7 @@ void add_export(Command& app) {
       .one_of({"csv", "psych-ds", "bids"});
   command.add_option("--out", &options->out, "a new or empty folder").required();
   command.add_flag("--pseudonymise", options->pseudonymise,
-                   "no names and typed texts; the key is OUT.key, created if it is "
-                   "there");
+                   "no names and no typed texts; the key is OUT.key, created if it is missing");
   command.add_option("--key", &options->key_file,
                      "another file for --pseudonymise: its key, or a new one if it is missing");
   add_unverified(command, options->unverified);

@@ -32,8 +32,7 @@ struct RunOptions {
   std::optional<Purpose> purpose;
   std::optional<double> text_size;
   std::map<std::string, std::string> participant_info;  // assigned by the plan
-  bool left_handed = false, unblind = false, again = false, keys = false,
-       ignore_failed_checks = false;
+  bool unblind = false, again = false, keys = false, ignore_failed_checks = false;
   bool changed_protocol = false;
   bool are_two = false;  // a participant with a similar id, confirmed to be another person
 };
@@ -59,10 +58,6 @@ SessionOptions session_options(const RunOptions& options) {
   // Logged as the protocol's key that it is.
   if (options.text_size)
     given.settings.push_back({"screens.text_size", fmt::format("{}", *options.text_size)});
-  if (options.left_handed && given.controls == Side::right)
-    throw Error("--left-handed is the same as --controls left; expected one of them",
-                ExitCode::usage);
-  if (options.left_handed) given.controls = Side::left;
   if (!given.hand) given.hand = Side::right;
   if (is_persons(options))
     given.keys =
@@ -183,9 +178,10 @@ void refuse_changed_protocol(const StudyPlan& plan, const std::vector<SessionRow
   const auto [participants, since_the_last] = had_another_protocol(
       plan, sessions, purpose, group.name, load_protocol(group.protocol).sha256);
   if (participants.empty()) return;
-  const std::string found = fmt::format(
-      "{} is not what participant(s) {} {}had", group.protocol, fmt::join(participants, ", "),
-      group.name.empty() ? "" : fmt::format("of the group \"{}\" ", group.name));
+  const std::string found =
+      fmt::format("{} is not what participant{} {} {}had", group.protocol,
+                  participants.size() == 1 ? "" : "s", fmt::join(participants, ", "),
+                  group.name.empty() ? "" : fmt::format("of the group \"{}\" ", group.name));
   if (!since_the_last || options.changed_protocol) return say("heft: WARNING: {}\n", found);
   if (confirmed(found + ": it was changed since then. Continue with the changed one?")) return;
   throw Error(
@@ -336,7 +332,6 @@ void add_run(Command& app) {
              "the side of the buttons on the screen, for the tapping hand; the cubes "
              "keep their places (default: right)",
              {"left", "right"});
-  command.add_flag("--left-handed", options->left_handed, "the same as --controls left");
   command
       .add_option("--text-size", &options->text_size,
                   fmt::format("size of the participant's texts, {} to {} times the usual, as "

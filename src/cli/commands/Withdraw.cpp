@@ -111,7 +111,7 @@ void add_withdraw(Command& app) {
       {"heft withdraw --db lab.db --session 7", "heft withdraw --db lab.db --session 7 --yes",
        "heft withdraw --db lab.db --session 7 --search /media/stick"});
   command.add_option("--db", &options->db, "the log").shows_default();
-  command.add_session(options->session, "none; it is required");
+  command.add_session(options->session, "none, required");
   command.add_option("--search", &options->folders,
                      "another folder to search for copies, beside the log's and its backups'; "
                      "repeat for several");
