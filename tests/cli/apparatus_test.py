@@ -215,7 +215,7 @@ class Apparatus(unittest.TestCase):
                             frames / name], check=True)
         run = self.calibrate_camera(f"frames:{frames}")
         self.assertEqual((run.returncode, run.stdout), (1, ""))
-        self.assertIn("of 8 picture(s) 1 were kept; 7 are too similar to one", run.stderr)
+        self.assertIn("of 8 pictures 1 were kept; 7 are too similar to one", run.stderr)
         self.assertIn("at least 5", run.stderr)
         for missing in ("tilt the board", "nearer and farther", "19 more views"):
             self.assertIn(missing, run.stderr)
@@ -240,12 +240,12 @@ class Apparatus(unittest.TestCase):
                      "--effector", APPARATUS / "effector.toml", "--out", self.folder / "e.toml"]
         run = self.heft(*arguments)
         self.assertEqual(run.returncode, 1)
-        self.assertIn("0 picture(s) show two or more", run.stderr)
+        self.assertIn("are clear in 0 pictures", run.stderr)
         self.assertIn("too rarely beside another tag: 30, 31, 32, 33, 34", run.stderr)
         self.assertFalse((self.folder / "e.toml").exists())
         on_board = self.heft(*arguments, "--on-board", "--board", APPARATUS / "board.toml")
         self.assertEqual((on_board.returncode, on_board.stdout), (1, ""))
-        self.assertIn("of 1 picture(s) 0 were kept; 1 do not show a tag of the effector clearly; "
+        self.assertIn("of 1 picture 0 were kept; 1 do not show a tag of the effector clearly; "
                       "stand it on the board", on_board.stderr)
         for more, message in ((["--on-board"], "--on-board needs --board"),
                               (["--board", APPARATUS / "board.toml"], "--board requires --on-board")):

@@ -123,7 +123,7 @@ class Track(unittest.TestCase):
             self.assertEqual((rows[1]["camera_x_m"], rows[1]["n_tags"]), ("", "0"))
             self.assertAlmostEqual(float(rows[1]["t_s"]), 1 / 30, delta=1e-9)
             self.assertIn("2.pgm", run.stderr)
-            self.assertIn("1 of 3 picture(s)", run.stderr)
+            self.assertIn("1 of 3 pictures", run.stderr)
 
     def test_help_says_whose_the_columns_are(self):
         run = subprocess.run([HEFT, "track", "--help-all"], capture_output=True, text=True, timeout=60)

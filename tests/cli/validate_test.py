@@ -43,7 +43,7 @@ class Validate(unittest.TestCase):
             [HEFT, "validate", *map(str, paths)], capture_output=True, text=True, timeout=60
         )
 
-    def test_what_only_large_letters_do_not_fit_is_told_of_texts(self):
+    def test_what_only_large_letters_do_not_fit_is_reported_of_texts(self):
         english = (PROTOCOLS / "texts" / "en.toml").read_text(encoding="utf-8")
         self.assertIn('title = "Welcome"', english)
         path = self.file("de.toml", english.replace(
@@ -129,7 +129,7 @@ protocol = "asks.toml"
             self.assertRegex(run.stderr, r"q_x\.en\.toml:7: characters that no installed font has: "
                                          r"U\+10FFFF in questionnaire_q_x\.c; install")
             self.assertIn("Donaudampf", run.stderr)
-            self.assertIn(": 1 mistake(s)", run.stderr)
+            self.assertIn(": 1 mistake", run.stderr)
 
     def test_every_shipped_protocol_is_ok(self):
         paths = sorted(PROTOCOLS.glob("*.toml"))
@@ -171,8 +171,8 @@ protocol = "asks.toml"
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual(
             run.stdout.splitlines(),
-            [f"{procedure}: ok, a procedure file: 1 staircase(s)",
-             f"{scene}: ok, a scene file: 1 cube(s)"],
+            [f"{procedure}: ok, a procedure file: 1 staircase",
+             f"{scene}: ok, a scene file: 1 cube"],
         )
 
     def test_every_shipped_text_file_is_ok(self):
@@ -196,7 +196,7 @@ protocol = "asks.toml"
         scene = self.file("b.toml", SCENE.replace("mass_kg", "mas_kg"))
         run = self.validate(procedure, good, scene)
         self.assertEqual(run.returncode, 3)
-        self.assertEqual(run.stdout.splitlines(), [f"{good}: ok, a procedure file: 1 staircase(s)"])
+        self.assertEqual(run.stdout.splitlines(), [f"{good}: ok, a procedure file: 1 staircase"])
         places = re.findall(r"^(\S+:\d+:\d+): ", run.stderr, re.MULTILINE)
         self.assertEqual(places, [f"{procedure}:4:9", f"{procedure}:5:8", f"{scene}:3:1"])
         self.assertIn('"mass_kg"?', run.stderr)

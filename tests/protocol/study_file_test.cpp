@@ -172,8 +172,7 @@ TEST(BrokenStudy, IsRefusedAtItsPlace) {
               HasSubstr("STUDY.toml:6:22: "));
   EXPECT_THAT(mistakes_in(study("[order]\nblocks = [\"comparison\", \"comparison\"]\n")),
               HasSubstr("STUDY.toml:6:25: \"comparison\" is listed twice"));
-  EXPECT_THAT(mistakes_in(study("[order]\nblocks = [\"comparison\"]\n")),
-              HasSubstr("has 1 block(s)"));
+  EXPECT_THAT(mistakes_in(study("[order]\nblocks = [\"comparison\"]\n")), HasSubstr("has 1 block"));
   EXPECT_THAT(mistakes_in(study("[[group]]\nname = \"a\"\n[[group]]\nname = \"a\"\n")),
               HasSubstr("STUDY.toml:8:8: another group is named \"a\""));
 }

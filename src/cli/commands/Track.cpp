@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/Error.h"
+#include "base/Names.h"
 #include "cli/Commands.h"
 #include "cli/console/Terminal.h"
 #include "protocol/readers/Files.h"
@@ -117,10 +118,10 @@ class Sightings {
   void say_what_was_never_seen(const Apparatus& apparatus) const {
     if (last_.empty()) return;
     if (n_boards_ == 0)
-      say("the board was found in 0 of {} picture(s): {}\n", n_pictures_,
+      say("the board was found in 0 of {}: {}\n", counted(n_pictures_, "picture"),
           why_unseen(last_, apparatus.board, "board"));
     else if (n_effectors_ == 0 && !apparatus.effector.tags.empty())
-      say("the effector was found in 0 of {} picture(s): {}\n", n_pictures_,
+      say("the effector was found in 0 of {}: {}\n", counted(n_pictures_, "picture"),
           why_unseen(last_, apparatus.effector, "effector", apparatus.board));
   }
 
@@ -158,8 +159,8 @@ void run_track(const TrackOptions& options) {
   });
   sightings.say_what_was_never_seen(apparatus);
   if (n_damaged > 0)
-    throw Error(fmt::format("{} of {} picture(s) cannot be read; their rows have no poses",
-                            n_damaged, frame));
+    throw Error(fmt::format("{} of {} cannot be read; rows of these have no poses", n_damaged,
+                            counted(frame, "picture")));
 }
 }  // namespace
 

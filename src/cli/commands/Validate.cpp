@@ -110,7 +110,7 @@ std::string described(const Protocol& protocol, std::vector<std::string>& cautio
                               taken->most, participants);
     }
   std::string text = fmt::format(
-      "about {}{} and {:.0f} min (assuming {})", counted(std::lround(total_of(trials)), "trial"),
+      "about {}{} and {:.0f} min\n  assuming {}", counted(std::lround(total_of(trials)), "trial"),
       simulated, expected_minutes(protocol, trials), assumed_text(protocol, trials));
   if (protocol.simulator.name == "auto") text += "; " + described(resolve_auto(protocol));
   return text + "; what a study can find: heft power";
@@ -130,7 +130,8 @@ struct Checked {
 };
 
 std::string described(const ScreenTexts& texts) {
-  return fmt::format("{} page(s) in the language \"{}\"", texts.pages.size(), texts.language);
+  return fmt::format("{} in the language \"{}\"", counted(std::ssize(texts.pages), "page"),
+                     texts.language);
 }
 
 std::string described(const DisplayMeasures& display) {
@@ -167,11 +168,11 @@ std::vector<std::string> cautions_of(const StudyPlan& plan) {
   const int n_cells = static_cast<int>(plan.groups.size() * plan.orders.size());
   if (plan.participants % n_cells == 0) return {};
   const int below = plan.participants / n_cells * n_cells;
-  return {fmt::format(
-      "{} participants cannot be divided equally among {} group(s) with {} order(s) each, expected "
-      "{}{}",
-      plan.participants, plan.groups.size(), plan.orders.size(),
-      below > 0 ? fmt::format("{} or ", below) : "", below + n_cells)};
+  return {
+      fmt::format("{} participants cannot be divided equally among {} with {} each, expected {}{}",
+                  plan.participants, counted(std::ssize(plan.groups), "group"),
+                  counted(std::ssize(plan.orders), "order"),
+                  below > 0 ? fmt::format("{} or ", below) : "", below + n_cells)};
 }
 
 // Checks that the participant's texts exist in the session's language, and can be displayed.
@@ -216,7 +217,7 @@ Checked checked_questionnaires(const ScreenTexts& read, const std::string& path)
   ScreenTexts texts = load_texts(texts_file("en"));
   texts.questionnaires = read.questionnaires;
   for (const auto& [page, words] : read.pages) texts.pages[page] = words;
-  return checked(texts, fmt::format("{} questionnaire(s)", read.questionnaires.size()), path);
+  return checked(texts, counted(std::ssize(read.questionnaires), "questionnaire"), path);
 }
 
 Checked checked(FileKind kind, const std::string& text, const std::string& path) {
@@ -224,9 +225,9 @@ Checked checked(FileKind kind, const std::string& text, const std::string& path)
     case FileKind::protocol:
       return checked(parse_protocol(text, path), path);
     case FileKind::procedure:
-      return {fmt::format("{} staircase(s)", parse_procedure(text, path).staircases.size())};
+      return {counted(std::ssize(parse_procedure(text, path).staircases), "staircase")};
     case FileKind::scene:
-      return {fmt::format("{} cube(s)", parse_scene(text, path).cubes.size())};
+      return {counted(std::ssize(parse_scene(text, path).cubes), "cube")};
     case FileKind::board:
       return {described(parse_board(text, path))};
     case FileKind::effector:
@@ -262,8 +263,8 @@ ExitCode validate(const std::string& path) {
       for (const std::string& caution : file.cautions) say("{}: {}\n", path, caution);
       if (!file.mistakes.empty()) throw InvalidFile(file.mistakes);
     } catch (const InvalidFile& error) {
-      say("{}\n{}: not valid as {}: {} mistake(s)\n", error.what(), path, with_article(kind),
-          error.mistakes().size());
+      say("{}\n{}: not valid as {}: {}\n", error.what(), path, with_article(kind),
+          counted(std::ssize(error.mistakes()), "mistake"));
       return error.exit_code();
     }
   } catch (const Error& error) {
@@ -282,7 +283,8 @@ void validate_all(const std::vector<std::string>& paths) {
     worst = std::max(worst, code);
   }
   if (worst != ExitCode::ok)
-    throw Error(fmt::format("{} of {} file(s) are not usable", n_bad, paths.size()), worst);
+    throw Error(fmt::format("{} of {} not usable", n_bad, counted(std::ssize(paths), "file")),
+                worst);
 }
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "base/Names.h"
 #include "base/files/Printable.h"
 #include "base/files/TextFile.h"
 #include "experiment/Participant.h"
@@ -48,8 +49,8 @@ void check_blocks(TableReader& table, std::string_view key,
                   const std::vector<std::string>& blocks) {
   if (!table.has(key) || !table.good({key})) return;
   if (blocks.size() < 2 || blocks.size() > most_blocks)
-    table.mistake(key, fmt::format("{} has {} block(s), expected 2 to {}: others keep their places",
-                                   key, blocks.size(), most_blocks));
+    table.mistake(key, fmt::format("{} has {}, expected 2 to {}: others keep their places", key,
+                                   counted(std::ssize(blocks), "block"), most_blocks));
   for (std::size_t i = 0; i < blocks.size(); ++i)
     if (std::ranges::count(blocks.begin(), blocks.begin() + static_cast<std::ptrdiff_t>(i),
                            blocks[i]) > 0)

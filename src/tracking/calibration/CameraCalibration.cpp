@@ -7,6 +7,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "base/Error.h"
+#include "base/Names.h"
 #include "tracking/calibration/PrintFit.h"
 #include "tracking/camera/ImageConversion.h"
 
@@ -168,11 +169,10 @@ std::vector<View> views_of(const MarkerBody& board, const std::vector<Image>& pi
     if (view.result.n_tags >= least_tags_of_a_view) views.push_back(std::move(view));
   }
   if (views.size() < least_views)
-    throw Error(
-        fmt::format("{} of {} picture(s) show {} or more of the board's tags clearly, "
-                    "expected at least {} and better 20; check the board file, focus and "
-                    "light",
-                    views.size(), pictures.size(), least_tags_of_a_view, least_views));
+    throw Error(fmt::format(
+        "{} or more of the board's tags are clear in {} of {}, expected in at least "
+        "{} and better 20; check the board file, focus and light",
+        least_tags_of_a_view, views.size(), counted(std::ssize(pictures), "picture"), least_views));
   return views;
 }
 

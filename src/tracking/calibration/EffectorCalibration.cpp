@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/Error.h"
+#include "base/Names.h"
 #include "tracking/calibration/CameraCalibration.h"
 #include "tracking/pose/MarkerBody.h"
 #include "tracking/pose/PlanarPose.h"
@@ -87,7 +88,8 @@ void back_to_axes(std::vector<Tag>& tags, const std::vector<Tag>& nominal) {
     for (Eigen::Vector3d& corner_m : tag.corners_m) corner_m = rigid * corner_m;
 }
 
-std::vector<CalibratedTag> counted(const MarkerBody& effector, const std::vector<TagView>& views) {
+std::vector<CalibratedTag> seen_tags(const MarkerBody& effector,
+                                     const std::vector<TagView>& views) {
   std::vector<CalibratedTag> tags;
   for (const Tag& tag : effector.tags) tags.push_back({tag.id, 0, 0});
   for (const TagView& view : views)
@@ -104,7 +106,7 @@ std::string seldom_seen(const std::vector<CalibratedTag>& tags) {
       counts.push_back(tag.n_views);
     }
   if (ids.empty()) return "";
-  return fmt::format("{} (in {} picture(s))", fmt::join(ids, ", "), fmt::join(counts, ", "));
+  return fmt::format("{} (pictures: {})", fmt::join(ids, ", "), fmt::join(counts, ", "));
 }
 
 void require_enough(const std::vector<CalibratedTag>& tags, std::size_t n_views) {
@@ -112,11 +114,10 @@ void require_enough(const std::vector<CalibratedTag>& tags, std::size_t n_views)
   const std::string seldom = seldom_seen(tags);
   if (n_views < least)
     throw Error(
-        fmt::format("{} picture(s) show two or more of the effector's tags clearly, expected at "
-                    "least {} and better 40; too rarely beside another tag: {}. Turn it "
-                    "slowly close to "
+        fmt::format("two or more of the effector's tags are clear in {}, expected in at least {} "
+                    "and better 40; too rarely beside another tag: {}. Turn it slowly close to "
                     "the camera, in good light; check the effector file",
-                    n_views, least, seldom));
+                    counted(static_cast<std::int64_t>(n_views), "picture"), least, seldom));
   if (!seldom.empty())
     throw Error(fmt::format(
         "too few pictures show tag {} beside another tag; expected {} or more of each. "
@@ -131,7 +132,7 @@ EffectorCalibration calibrate_effector(const MarkerBody& effector, const Intrins
   std::ranges::copy_if(views, std::back_inserter(useful),
                        [](const TagView& view) { return view.tags.size() >= 2; });
   EffectorCalibration result{effector, 0, 0, static_cast<int>(useful.size()),
-                             counted(effector, useful)};
+                             seen_tags(effector, useful)};
   require_enough(result.tags, useful.size());
   TagBundle bundle = first_guess(effector, camera, useful);
   result.rms_px = adjust(bundle, camera, useful);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/Error.h"
+#include "base/Names.h"
 #include "base/Pose.h"
 #include "base/math/LevenbergMarquardt.h"
 #include "base/math/Quantiles.h"
@@ -289,10 +290,10 @@ std::vector<std::string> doubts(const OnBoardCalibration& c) {
 
 std::string summary(const OnBoardCalibration& c) {
   std::string text = fmt::format(
-      "the effector stands on the board in {} picture(s), {} left out, reprojection {:.3f} px rms\n"
+      "the effector stands on the board in {}, {} left out, reprojection {:.3f} px rms\n"
       "the effector's tags are {:.2f} % {} than in its file ({:.2f} either way), if the board is "
       "as large as its file says\n",
-      c.n_views, c.n_left_out, c.rms_px, percent(c.tag_scale),
+      counted(c.n_views, "picture"), c.n_left_out, c.rms_px, percent(c.tag_scale),
       c.tag_scale < 1 ? "smaller" : "larger", 200 * c.tag_scale_sd);
   text += fmt::format("written: ruler_measured_m = {:.6f}\n", *c.effector.measured_ruler_m);
   return text + verdict_of(doubts(c));

@@ -36,7 +36,7 @@ class StandingViews {
   bool complete() const { return views_.size() >= enough; }
   bool full() const { return views_.size() >= most; }
   double progress() const { return static_cast<double>(views_.size()) / enough; }
-  /// "of 9 picture(s) 5 were kept; 2 do not show 4 of the board's tags clearly; ..."
+  /// "of 9 pictures 5 were kept; 2 do not show 4 of the board's tags clearly; ..."
   std::string tally() const;
   const std::vector<StandingView>& views() const { return views_; }
 

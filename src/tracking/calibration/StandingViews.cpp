@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/Error.h"
+#include "base/Names.h"
 #include "tracking/calibration/CameraCalibration.h"
 #include "tracking/calibration/OnBoardCalibration.h"
 #include "tracking/pose/PlanarPose.h"
@@ -110,7 +111,8 @@ bool StandingViews::offer(const Image& image, const std::string& name) {
 }
 
 std::string StandingViews::tally() const {
-  std::string text = fmt::format("of {} picture(s) {} were kept", n_offered_, views_.size());
+  std::string text =
+      fmt::format("of {} {} were kept", counted(n_offered_, "picture"), views_.size());
   const auto add = [&](int n, const std::string& why) {
     if (n > 0) text += fmt::format("; {} {}", n, why);
   };

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/Error.h"
+#include "base/Names.h"
 
 namespace heft {
 
@@ -94,7 +95,7 @@ std::string ViewCollector::wanted() const {
 }
 
 std::string ViewCollector::tally() const {
-  std::string text = fmt::format("of {} picture(s) {} were kept", n_offered_, size());
+  std::string text = fmt::format("of {} {} were kept", counted(n_offered_, "picture"), size());
   const auto add = [&](std::size_t n, const char* why) {
     if (n > 0) text += fmt::format("; {} {}", n, why);
   };

@@ -78,7 +78,7 @@ TEST(CameraCalibration, RefusesPicturesWithoutTheBoard) {
     calibrate_camera(board, gray, std::vector<std::string>(6, "gray"));
     FAIL();
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("0 of 6 picture(s)"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("0 of 6 pictures"), std::string::npos);
   }
   EXPECT_THROW(calibrate_camera(board, {}, {}), Error);
 }
@@ -126,7 +126,7 @@ TEST(ViewCollector, SaysWhatIsMissing) {
   views.offer(pictures.images[1], "another");
   views.offer(Image(640, 480, 1), "gray");
   EXPECT_EQ(views.tally(),
-            "of 5 picture(s) 2 were kept; 1 don't show the board clearly (4 tags or more); 2 are "
+            "of 5 pictures 2 were kept; 1 don't show the board clearly (4 tags or more); 2 are "
             "too similar to one that was kept");
   const std::string missing = joined(views.missing());
   for (const char* what : {"tilt the board", "of the picture", "18 more views"})
@@ -201,10 +201,11 @@ TEST(EffectorCalibration, RefusesATagThatItSawTooLittle) {
   ASSERT_EQ(refusal(made, views), "calibrated");
   for (TagView& view : views)
     std::erase_if(view.tags, [](const auto& seen) { return seen.tag == 3; });
-  EXPECT_NE(refusal(made, views).find("tag 33 (in 0 picture(s))"), std::string::npos)
+  EXPECT_NE(refusal(made, views).find("tag 33 (pictures: 0)"), std::string::npos)
       << refusal(made, views);
   views.resize(3);
-  EXPECT_NE(refusal(made, views).find("too rarely beside another tag: 30, 31, 32, 33, 34"), std::string::npos)
+  EXPECT_NE(refusal(made, views).find("too rarely beside another tag: 30, 31, 32, 33, 34"),
+            std::string::npos)
       << refusal(made, views);
 }
 

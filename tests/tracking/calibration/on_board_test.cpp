@@ -154,7 +154,7 @@ TEST(StandingViews, SayWhatTheyDoNotShow) {
   EXPECT_TRUE(table.film({{0, -0.02, 0.02}, Eigen::Quaterniond::Identity()}));
   EXPECT_FALSE(table.film({{0, -0.02, 0.02}, Eigen::Quaterniond::Identity()}));
   EXPECT_EQ(table.views.tally(),
-            "of 5 picture(s) 1 were kept; 1 do not show the board clearly (4 tags or more); 1 do "
+            "of 5 pictures 1 were kept; 1 do not show the board clearly (4 tags or more); 1 do "
             "not show a tag of the effector clearly; 1 show it above the board or tilted; 1 show "
             "it where another one does");
   EXPECT_THROW(table.views.offer(Image(320, 240, 1), "small"), Error);
