@@ -250,6 +250,16 @@ PATH = re.compile(r"[A-Za-z_.][\w.*{},@+-]*(/[\w.*{},@+-]+)+/?|[a-z_]+/")
 
 
 class Paths(SessionTest):
+    def test_lengths_of_protocols_are_those_of_validate(self):
+        rows = re.findall(r"^\| (`\S+\.toml`.*?) \|.*\| (.*trials) \|$", text_of("README.md"), re.M)
+        said = {name: length for names, lengths in rows
+                for name, length in zip(re.findall(r"[\w/]+\.toml", names), lengths.split(", and "), strict=True)}
+        self.assertGreaterEqual(len(said), 4)
+        for name, length in said.items():
+            printed = self.run_heft("validate", PROTOCOLS / name).stdout
+            mean, simulated = re.search(r"about (\d+) trials(?: \((\d+ to \d+) )?", printed).groups()
+            self.assertEqual(length.removesuffix(" trials"), simulated or mean, name)
+
     def test_every_path_exists(self):
         stale = []
         for name in READMES:
