@@ -1,6 +1,7 @@
-"""Whether clang compiles every file without a warning, or clang-tidy finds nothing in it.
+"""Whether clang compiles every file without a warning, clang-tidy finds nothing in it, or clang-format would
+not change it.
 
-Run: python3 tests/compilers_test.py clang++|clang-tidy BUILD [REGEX of files]
+Run: python3 tests/compilers_test.py clang++|clang-tidy|clang-format BUILD [REGEX of files]
 It skips (77) where that program is not installed. Precompiled headers are left out, so that each
 file must include what it uses.
 """
@@ -40,10 +41,19 @@ def compiled(entry):
                           capture_output=True, text=True)
 
 
+def check_format(files):
+    root = Path(__file__).resolve().parents[1]
+    paths = [path for folder in ("src", "tests", "results") for path in sorted((root / folder).rglob("*"))
+             if path.suffix in (".h", ".cpp") and re.search(files, str(path))]
+    return subprocess.run(["clang-format", "--dry-run", "-Werror", *paths]).returncode
+
+
 def main(program, build, files="."):
     if not shutil.which(program):
         print(f"{program} is not installed")
         return 77
+    if program == "clang-format":
+        return check_format(files)
     entries = list(commands(Path(build), files))
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "compile_commands.json").write_text(json.dumps(entries), encoding="utf-8")

@@ -130,8 +130,9 @@ namespace {
 std::string module_path(const char* module) {
   const std::filesystem::path here = program_folder();
   const std::filesystem::path library = std::filesystem::path(HEFT_LIBDIR) / "heft";
-  for (const std::filesystem::path& folder : {here, here.parent_path(), here.parent_path() / library,
-                                              here.parent_path().parent_path() / library}) {
+  for (const std::filesystem::path& folder :
+       {here, here.parent_path(), here.parent_path() / library,
+        here.parent_path().parent_path() / library}) {
     std::error_code none;
     if (std::filesystem::is_regular_file(folder / module, none)) return (folder / module).string();
   }

@@ -68,7 +68,7 @@ bool start_video() {
 
 void set_hints() {
   SDL_LogSetAllPriority(SDL_LOG_PRIORITY_CRITICAL);  // Heft reports errors in its own words
-  SDL_SetHint(SDL_HINT_TOUCH_MOUSE_EVENTS, "0");  // otherwise taps count twice
+  SDL_SetHint(SDL_HINT_TOUCH_MOUSE_EVENTS, "0");     // otherwise taps count twice
   SDL_SetHint(SDL_HINT_MOUSE_TOUCH_EVENTS, "0");
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the session handles Ctrl-C
   SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "0");

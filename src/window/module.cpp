@@ -9,4 +9,5 @@ extern "C" __attribute__((visibility("default"))) const heft::WindowModule heft_
       return std::make_unique<heft::WindowView>(setup);
     },
     heft::displays, heft::check_displays, heft::measure_card, heft::touch_delays_s};
-extern "C" __attribute__((visibility("default"))) const char* const heft_window_edition = heft::module_edition;
+extern "C" __attribute__((visibility("default"))) const char* const heft_window_edition =
+    heft::module_edition;

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "base/math/Quantiles.h"
+
+#include <gtest/gtest.h>
 
 namespace heft {
 namespace {

@@ -61,7 +61,8 @@ TEST(RequireWritable, SaysWhatIsWrongBeforeTheWork) {
   EXPECT_EQ(refusal(folder.file("new.yaml")), "writable");
   EXPECT_EQ(refusal("in_this_folder.yaml"), "writable");
   EXPECT_THAT(files_in(folder.path()), ElementsAre());  // asking leaves nothing behind
-  EXPECT_THAT(refusal(folder.file("missing/camera.yaml")), HasSubstr("check that its folder exists"));
+  EXPECT_THAT(refusal(folder.file("missing/camera.yaml")),
+              HasSubstr("check that its folder exists"));
   EXPECT_THAT(refusal(folder.path()), HasSubstr("it is a folder"));
   EXPECT_THAT(refusal("/dev/null"), HasSubstr("a device"));
 }

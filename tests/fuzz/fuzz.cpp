@@ -63,7 +63,8 @@ void talk(const std::string& lines) {
   std::istringstream in(lines);
   std::ostringstream out;
   const InterleavedProcedures procedures = parse_procedure(
-      "[[staircase]]\nname = \"a\"\nkind = \"up_down\"\nstart = 600\nstep = 150\nstop_trials = 40\n",
+      "[[staircase]]\nname = \"a\"\nkind = \"up_down\"\nstart = 600\nstep = 150\nstop_trials = "
+      "40\n",
       file);
   cli::ProcedureDialog(procedures, out).run(in);
 }

@@ -100,7 +100,8 @@ TEST_F(Backup, RemovesItsCopiesThatWereCutOff) {
   const std::string mine = backup_name("P/01 ä", 1, "2026-11-22T09:30:00Z", "");
   const std::string another = backup_name("P02", 2, "2026-11-22T09:30:00Z", "");
   const std::string tenth = backup_name("P/01 ä", 10, "2026-11-22T09:30:00Z", "");
-  for (const std::string& name : {mine, another, tenth}) std::ofstream(folder + "/" + name + ".db.part");
+  for (const std::string& name : {mine, another, tenth})
+    std::ofstream(folder + "/" + name + ".db.part");
   std::ofstream(folder + "/" + mine + ".db") << "whole";
   back_up(db, folder, 1);
   EXPECT_FALSE(fs::exists(folder + "/" + mine + ".db.part"));

@@ -58,7 +58,8 @@ class Tapper {
 
 struct FrozenSession {
   FrozenSession(std::uint64_t seed, int at_reading, double length_s)
-      : session(testing::quick_protocol(), load_texts(source_folder() + "/protocols/texts/en.toml"), Tapper(seed)) {
+      : session(testing::quick_protocol(), load_texts(source_folder() + "/protocols/texts/en.toml"),
+                Tapper(seed)) {
     freeze = {at_reading, length_s};
     started_s = made_up_s;
     session.clock = SessionClock::wall_from(0, freezing_monotonic);

@@ -135,8 +135,7 @@ class PerceivedMassSection final : public Section {
       if (here == from.second.end() || here->second.from_lowest.influence.empty() ||
           there.from_lowest.influence.empty())
         continue;
-      const Contrast found =
-          perceived_contrast(here->second.from_lowest, there.from_lowest);
+      const Contrast found = perceived_contrast(here->second.from_lowest, there.from_lowest);
       StudyEstimate one{&contrast, "sorting", to.first};
       one.by = {{"other_condition", from.first}, at("mass_g", mass_g)};
       one.n = found.n;

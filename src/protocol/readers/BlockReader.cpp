@@ -160,9 +160,8 @@ class KeyReader {
     StaircaseRules rules = field.block.staircase_rules();
     if (has_wrong_object(table_, rules)) rules.reference = StaircaseRules::Reference::unknown;
     for (TableReader& staircase : table_.tables(key))
-      std::ranges::move(
-          read_staircases_of(staircase, names_.techniques, names_.staircases, rules),
-          std::back_inserter(field.block.staircases));
+      std::ranges::move(read_staircases_of(staircase, names_.techniques, names_.staircases, rules),
+                        std::back_inserter(field.block.staircases));
   }
   void read(std::string_view, CatchTrials<Comparison::Block>& field) {
     read_catches(table_, field.block);

@@ -18,8 +18,8 @@ Eigen::Vector3d half_extents_m(const Eigen::Quaterniond& orientation,
 /// few millimeters. None if there is none.
 std::optional<int> touched_cube(const Pose& clone, std::span<const Pose> cubes, const Stage& stage);
 
-/// The frames in which a cube seems to be touched, and the one before each, from which an eye counts
-/// time: they give the percepts of all. None: no cube is touched.
+/// The frames in which a cube seems to be touched, and the one before each, from which an eye
+/// counts time: they give the percepts of all. None: no cube is touched.
 std::vector<DisplayedFrame> frames_with_touches(std::span<const DisplayedFrame> frames,
                                                 const Stage& stage);
 

@@ -43,9 +43,10 @@ std::vector<std::string> picture_names(const std::string& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
     if (is_image_file(entry.path().string())) {
       if (!entry.is_regular_file())
-        throw Error(fmt::format("{} is no file (a pipe, a device, or a link to nothing); remove it "
-                                "from the pictures",
-                                entry.path().string()));
+        throw Error(
+            fmt::format("{} is no file (a pipe, a device, or a link to nothing); remove it "
+                        "from the pictures",
+                        entry.path().string()));
       names.push_back(entry.path().filename().string());
     }
   if (error)
@@ -111,9 +112,10 @@ std::vector<double> times_of(const std::string& folder, const std::vector<std::s
     by_name.erase(found);
   }
   if (!by_name.empty())
-    throw Error(fmt::format("{} has a time for {}, but {} has no such picture; restore it, or "
-                            "remove its line",
-                            file, by_name.begin()->first, folder));
+    throw Error(
+        fmt::format("{} has a time for {}, but {} has no such picture; restore it, or "
+                    "remove its line",
+                    file, by_name.begin()->first, folder));
   return times;
 }
 

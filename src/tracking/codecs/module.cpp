@@ -24,4 +24,5 @@ extern "C" __attribute__((visibility("default"))) const heft::Codecs heft_codecs
       return std::make_unique<cv::VideoWriter>(path, backend, four_cc, rate_hz,
                                                cv::Size(width, height));
     }};
-extern "C" __attribute__((visibility("default"))) const char* const heft_codecs_edition = heft::module_edition;
+extern "C" __attribute__((visibility("default"))) const char* const heft_codecs_edition =
+    heft::module_edition;

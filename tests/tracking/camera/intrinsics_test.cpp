@@ -230,8 +230,7 @@ TEST(IntrinsicsFile, RefusesFilesThatHarmReaders) {
   const auto with = [&](const std::string& line) { return refusal(yaml + line + "\n"); };
   EXPECT_THAT(refusal("<?xml version=\"1.0\"?><opencv_storage/>"), HasSubstr("c.yaml:1:1: "));
   EXPECT_THAT(refusal("{\"image_width\": 640}"), HasSubstr("image_height is missing"));
-  EXPECT_THAT(with("image_width: 3"),
-              HasSubstr("c.yaml:15:1: the file has this key twice"));
+  EXPECT_THAT(with("image_width: 3"), HasSubstr("c.yaml:15:1: the file has this key twice"));
   EXPECT_THAT(with("x: " + std::string(100'000, '[')), HasSubstr("the file is not valid YAML"));
   EXPECT_THAT(with("a: b: c: d: e: f: g"), HasSubstr("c.yaml:15:5: the file is not valid YAML"));
   EXPECT_THAT(with("im--"), HasSubstr("c.yaml:15:1: the file has no value here"));
