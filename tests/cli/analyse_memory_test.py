@@ -54,9 +54,9 @@ class Memory(unittest.TestCase):
             subprocess.run([heft, "simulate", PROTOCOL, "--participants", "2", "--seed", "1", "--db",
                             few], check=True, stderr=subprocess.DEVNULL)
             shutil.copy(few, many)
-            copy_sessions(few, 99)
-            copy_sessions(many, 499)
-            grown = (peak_kb(many) - peak_kb(few)) / 800
+            copy_sessions(few, 49)
+            copy_sessions(many, 249)
+            grown = (peak_kb(many) - peak_kb(few)) / 400
             self.assertLess(grown, MOST_KB, "kB a participant")
 
 
