@@ -182,7 +182,7 @@ Parameters Likelihood::in_proportion(Parameters start, Eigen::Index held, double
 // Climbs from the likeliest starts: the very likeliest may stand on the wrong hill.
 Maximum Likelihood::profile_from_anywhere(Eigen::Index held, double held_value,
                                           const Parameters& last) {
-  if (is_one_hill()) return nothing();
+  if (has_one_maximum()) return nothing();
   Maximum best = profile(held, held_value, in_proportion(last, held, held_value));
   std::vector<Maximum> from;
   for (const std::vector<Parameters>& group : starts_)

@@ -27,7 +27,8 @@ struct Accuracy {
   double value = 0;  ///< by which values at different places may be wrong
 };
 
-/// A log likelihood within bounds, and the ways up on it. What it refers to must outlive it.
+/// A log likelihood within bounds, and the searches for its maximum. What it refers to must outlive
+/// it.
 class Likelihood {
  public:
   Likelihood(const LogLikelihood& function, const std::vector<ParameterBounds>& bounds,
@@ -43,8 +44,8 @@ class Likelihood {
     return bounds_[static_cast<std::size_t>(i)];
   }
 
-  /// As the starts say.
-  bool is_one_hill() const { return starts_.size() == 1; }
+  /// Whether one group of starts is enough to find the maximum.
+  bool has_one_maximum() const { return starts_.size() == 1; }
   Maximum maximum();
   /// To the nearest maximum; one parameter may be held.
   Maximum climb(Parameters from, Eigen::Index held = -1);
@@ -53,13 +54,13 @@ class Likelihood {
   Maximum climb_by_score(Parameters from, Eigen::Index held, Accuracy accuracy);
   /// With one parameter held. @param from where to start for the others
   Maximum profile(Eigen::Index held, double held_value, Parameters from);
-  /// The likelier of where two starts lead.
+  /// The better of the maxima from two starts.
   Maximum profile(Eigen::Index held, double held_value, Parameters from, Parameters or_from);
-  /// From all starts, and in proportion to what was last.
+  /// From all starts, and from the last maximum with its parameters scaled in proportion.
   Maximum profile_from_anywhere(Eigen::Index held, double held_value, const Parameters& last);
   /// 0: at a bound, or unknown; infinite: the answers leave it open.
   Parameters standard_errors(const Parameters& at);
-  /// How the likeliest others move with one parameter, next to a maximum.
+  /// Derivatives of the other parameters' profile estimates by one parameter, at a maximum.
   Parameters tangent(const Parameters& maximum, Eigen::Index along);
 
  private:

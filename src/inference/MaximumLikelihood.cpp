@@ -76,7 +76,7 @@ void IntervalEnd::search(double first_step) {
 // From afar towards 0, where there may be hills: halfway at most, so that the others can follow.
 bool IntervalEnd::is_too_far(double to) const {
   const double here = last_.at[parameter_];
-  return !likelihood_.is_one_hill() && direction_ * here < -1 &&
+  return !likelihood_.has_one_maximum() && direction_ * here < -1 &&
          std::abs(to - here) > std::abs(here) / 2;
 }
 
@@ -94,7 +94,7 @@ double IntervalEnd::between(Maximum inner, Maximum outer) {
     const double part = (here - from) / (to - from);
     Maximum middle = likelihood_.profile(parameter_, here, inner.at + part * (outer.at - inner.at));
     // Between two that stand on different hills neither's way leads to the higher one for sure.
-    if (!likelihood_.is_one_hill())
+    if (!likelihood_.has_one_maximum())
       middle = likelier(middle, likelihood_.profile(parameter_, here, inner.at, outer.at));
     else if (middle.log_likelihood < outer.log_likelihood)  // got stuck
       middle = likelier(middle, likelihood_.profile(parameter_, here, inner.at));

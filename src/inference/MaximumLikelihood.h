@@ -18,7 +18,7 @@ namespace heft {
 /// Half of that quantile: how far the log likelihood falls on the way to an interval's end.
 inline constexpr double interval_drop = 3.841458820694124 / 2;
 
-/// What falls less than this is as likely: finer than any figure is read.
+/// Log likelihoods that differ by less than this count as equal.
 inline constexpr double same_log_likelihood = 1e-6;
 
 /// A point among the parameters, or a slope there; at most seven, so that nothing is allocated.
@@ -34,16 +34,16 @@ struct Derivatives {
 /// @param derivatives to be filled, of the right size; null: not asked for
 using LogLikelihood = std::function<double(const Parameters& at, Derivatives* derivatives)>;
 
-/// A bound that is none.
+/// No bound.
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct ParameterBounds {
   double low = 0, high = 0;   ///< equal: the parameter is fixed; may be infinite
   bool with_interval = true;  ///< otherwise none is searched for
-  /// Of those in proportion the ratios say where the curves lie: a start moves along with one that
-  /// is held elsewhere.
+  /// Where one of several such parameters is held at another value, starts are scaled by the same
+  /// factor in the others.
   bool in_proportion = false;
-  /// Of climb_by_score(): farther away the derivatives of here say little.
+  /// The longest step of climb_by_score(): the derivatives hold no farther away.
   double longest_step = infinity;
   bool fixed() const { return low == high; }
 };

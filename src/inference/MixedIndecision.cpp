@@ -305,7 +305,7 @@ OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* 
 }
 
 Contrast threshold_contrast(std::span<const MixedFit* const> fits,
-                                     std::span<const double> weights) {
+                            std::span<const double> weights) {
   Contrast contrast;
   std::map<std::string, double> influence;
   for (std::size_t i = 0; i < fits.size(); ++i) {
@@ -321,7 +321,7 @@ Contrast threshold_contrast(std::span<const MixedFit* const> fits,
 }
 
 Contrast threshold_exponent(std::span<const MixedFit* const> fits,
-                                     std::span<const double> references_g) {
+                            std::span<const double> references_g) {
   std::vector<double> log_references;
   for (const double reference_g : references_g) log_references.push_back(std::log(reference_g));
   return threshold_contrast(fits, slope_weights(log_references));

@@ -94,13 +94,12 @@ OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* 
 /// variance is the infinitesimal jackknife's (Jaeckel 1972), so that what the same people have in
 /// common in several fits cancels.
 /// @param fits identifiable, with n >= least_people together
-Contrast threshold_contrast(std::span<const MixedFit* const> fits,
-                                     std::span<const double> weights);
+Contrast threshold_contrast(std::span<const MixedFit* const> fits, std::span<const double> weights);
 
 /// The least-squares slope of log threshold on log reference: the exponent beta of threshold ~
 /// reference^beta; 0: thresholds are equal, 1: proportional (Weber's law). At least two references,
 /// all above 0.
 Contrast threshold_exponent(std::span<const MixedFit* const> fits,
-                                     std::span<const double> references_g);
+                            std::span<const double> references_g);
 
 }  // namespace heft

@@ -10,13 +10,16 @@
 
 namespace heft {
 
-/// Where an interval comes from. The unit is the participant: a score interval (Wilson 1927) with
-/// the effective number of trials that the differences between participants leave (Korn & Graubard
-/// 1998), where the variance is the jackknife's (Efron & Stein 1981: not too small where few have
-/// most of the trials), and Student's t instead of the normal quantile. Its degrees of freedom are
-/// one less than there are participants, and fewer where few of these make most of the spread
-/// (Satterthwaite 1946). Where all participants are the same, Clopper-Pearson over people; of one
-/// alone, over that one's trials, and then it says nothing of others.
+/// Where an interval comes from. The unit is the participant.
+///
+/// - participants: a score interval (Wilson 1927) with an effective number of trials, which is
+///   smaller the more participants differ (Korn & Graubard 1998), and Student's t instead of the
+///   normal quantile. The variance is the jackknife's (Efron & Stein 1981), which is not too small
+///   where a few participants have most of the trials. Degrees of freedom: the number of
+///   participants less one, or fewer where a few of them cause most of the spread (Satterthwaite
+///   1946).
+/// - exact: Clopper-Pearson over people where all have the same share; with one participant over
+///   the trials, so that the interval is about this person only.
 enum class IntervalMethod { none, participants, exact };
 template <>
 struct EnumNames<IntervalMethod> {

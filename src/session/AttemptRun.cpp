@@ -64,8 +64,8 @@ bool AttemptRun::trial_continues() const {
   return engine().next().kind == Next::Kind::act;
 }
 
-// A trial that was voided while the camera was lost ends only when pictures return: the session is
-// paused, and the next attempt could not start.
+// While the camera is lost, the session is paused and no attempt can start. A trial that is voided
+// then ends when pictures return.
 bool AttemptRun::has_ended() const {
   return !engine().trial_is_open() && !trouble_since_s_;
 }

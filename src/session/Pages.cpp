@@ -183,7 +183,8 @@ namespace {
 constexpr double reading_s = 3;  // per question
 }
 
-QuestionnaireResponder::QuestionnaireResponder(const Responder& responder, const Questionnaire& form,
+QuestionnaireResponder::QuestionnaireResponder(const Responder& responder,
+                                               const Questionnaire& form,
                                                const ScreenState& screen) {
   double at_s = 0;
   const auto add = [&](TouchKind kind, const std::string& key, const std::string& value) {

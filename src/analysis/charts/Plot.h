@@ -13,7 +13,7 @@ namespace heft {
 struct PlotLayer {
   std::string rows;   ///< data; empty: `how` is a function of x, or the layer is left out
   std::string how;    ///< "using 1:2 with points linecolor '#222222'"
-  std::string title;  ///< in the key; empty: not there
+  std::string title;  ///< in the key; empty: omitted
   bool key_only = false;
 };
 

@@ -149,7 +149,8 @@ std::string fit_sentence(const Estimates& all) {
   if (checks.empty() || !misfit_sentence(all).empty()) return "";
   double least_p = 1;
   for (const StudyEstimate* check : checks) least_p = std::min(least_p, *check->value);
-  return fmt::format("The model predicts what was seen (smallest p = {:.2f}).", least_p);
+  return fmt::format("Predictive check of the indecision model: passed (smallest p = {:.2f}).",
+                     least_p);
 }
 
 }  // namespace heft

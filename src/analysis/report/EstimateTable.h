@@ -33,8 +33,8 @@ enum class Field {
 
 /// One column: a coordinate of the row, or a measure.
 struct EstimateColumn {
-  std::string name;                  ///< in CSV; empty: not there
-  std::string heading;               ///< in text and HTML; empty: not there
+  std::string name;                  ///< in CSV; empty: omitted
+  std::string heading;               ///< in text and HTML; empty: omitted
   const Measure* measure = nullptr;  ///< null: the coordinate of this name
   Field field = Field::value;
   int decimals = 1;

@@ -23,7 +23,7 @@ Cell flag(bool value);
 
 struct Column {
   std::string name;     ///< in CSV: snake_case with its unit; empty: not in CSV
-  std::string heading;  ///< in text and HTML, with its unit; empty: not there
+  std::string heading;  ///< in text and HTML, with its unit; empty: omitted
   /// In JSON; empty: `name`; "-": not there. A dot opens an object: "difference.low"; with "?"
   /// before the dot, an object without a figure is null.
   std::string json{};

@@ -172,7 +172,7 @@ void print_course(const std::vector<LoggedEvent>& events) {
   bool any = false;
   for (const LoggedEvent& logged : events) {
     if (!is_listed(logged.event)) continue;
-    if (!std::exchange(any, true)) print("\nwhat happened\n");
+    if (!std::exchange(any, true)) print("\nincidents\n");
     const EventRow row = row_of(logged.event);
     print("  {} {}{}{}\n", minutes_text(row.t_s), name_of(row.kind), row.detail.empty() ? "" : ": ",
           readable(row.detail));
