@@ -216,6 +216,14 @@ class PlainWords(unittest.TestCase):
         if found:
             self.fail(f"{len(found)} places:\n" + "\n".join(found))
 
+    def test_names_of_tests_use_them(self):
+        names = re.compile(r"(?:TEST(?:_F|_P)?|RC_GTEST\w*)\(\s*\w+,\s*(\w+)|def (test_\w+)")
+        for path in files_in(ROOT / "tests"):
+            if path.suffix in (".cpp", ".py"):
+                for name in names.findall(path.read_text(encoding="utf-8")):
+                    with self.subTest(file=str(path.relative_to(ROOT))):
+                        self.assertEqual(self.found_in("".join(name), is_code=True), [])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -24,7 +24,7 @@ SessionData with_catches(std::int64_t id, int n_false_alarms) {
   return data;
 }
 
-TEST(Exclusion, LeavesNobodyOutUnasked) {
+TEST(Exclusion, LeavesNoOneOutUnlessDeclared) {
   SessionData data = with_catches(1, 4);
   data.session.state = SessionState::aborted;
   EXPECT_FALSE(participants_of({&data, 1}).at(0).excluded());

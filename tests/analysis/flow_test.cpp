@@ -67,7 +67,7 @@ TEST(TrackingQuality, AddsUpAParticipantsSessions) {
   EXPECT_DOUBLE_EQ(*figure(summary, "tracking_quality").value, 0.8);
 }
 
-TEST(TrackingQuality, WithoutFramesTellsOfTheTimeAlone) {
+TEST(TrackingQuality, WithoutFramesHasTheTimeAlone) {
   const Summary summary = summarized({session(1, "a")});
   EXPECT_EQ(figure(summary, "tracking_losses").value, 0);
   EXPECT_FALSE(figure(summary, "tracked").value.has_value());

@@ -306,7 +306,7 @@ TEST(Jnd, OfABayesianKindIsBoundedByItsIntervalOrNotIdentifiable) {
   EXPECT_EQ(result.shown_g, 15);
 }
 
-TEST(Jnd, AProtocolTellsWhichStaircasesHaveNone) {
+TEST(Jnd, AProtocolSaysWhichStaircasesHaveNone) {
   const std::string block = "title = \"t\"\n[[block]]\nkind = \"comparison\"\nname = \"c\"\n";
   const std::string up_down =
       "[[block.staircase]]\nname = \"u\"\nreference_g = 15\nstart = 9\nstep = 1\nfloor = 0\n";

@@ -64,7 +64,7 @@ TEST(ProtocolChoices, NameDeclaredTechniques) {
   EXPECT_EQ(value_of(choices, "technique slow"), "speed limit 0.05 m/s at 200 g, back in 0.05 s");
 }
 
-TEST(ProtocolChoices, AreToldOnceAProtocolAndVersionsAreToldApart) {
+TEST(ProtocolChoices, AreGivenOnceForEachProtocolAndVersionsAreDistinguished) {
   const Protocol quick = shipped("quick.toml");
   Protocol changed = quick;
   changed.text += "\n# changed\n";
@@ -77,7 +77,7 @@ TEST(ProtocolChoices, AreToldOnceAProtocolAndVersionsAreToldApart) {
   EXPECT_EQ(both.back().protocol, "quick 01234567");
 }
 
-TEST(ProtocolChoices, TellWhatWasInForceInAnyOfTheSessions) {
+TEST(ProtocolChoices, ShowWhatAppliedInAnyOfTheSessions) {
   const Protocol quick = shipped("quick.toml");
   SessionData plain = session_of(quick), resumed = session_of(quick);
   LoggedSetup logged{1, 1, {}};

@@ -126,8 +126,7 @@ TEST(Hypotheses, FollowTheExponentOfThresholds) {
 
 TEST(ThresholdContrast, OfTwoIndependentThresholdsHasTheirVariancesSum) {
   const MixedFit light = known(100, 0.3, "a"), heavy = known(200, 0.3, "b");
-  const Contrast ratio =
-      threshold_contrast(std::array{&light, &heavy}, std::array{-1.0, 1.0});
+  const Contrast ratio = threshold_contrast(std::array{&light, &heavy}, std::array{-1.0, 1.0});
   EXPECT_NEAR(ratio.value, std::log(2), 1e-12);
   EXPECT_EQ(ratio.n, 26);
   EXPECT_NEAR(ratio.standard_error, 0.3 / 13 * 26 / std::sqrt(25), 1e-12);
@@ -138,8 +137,7 @@ TEST(ThresholdContrast, OfTwoIndependentThresholdsHasTheirVariancesSum) {
 // The same people in both: what they have in common cancels.
 TEST(ThresholdContrast, OfTheSamePeopleKeepsWhatDiffers) {
   const MixedFit light = known(100, 0.3, "a"), heavy = known(200, 0.3, "a");
-  const Contrast ratio =
-      threshold_contrast(std::array{&light, &heavy}, std::array{-1.0, 1.0});
+  const Contrast ratio = threshold_contrast(std::array{&light, &heavy}, std::array{-1.0, 1.0});
   EXPECT_EQ(ratio.n, 13);
   EXPECT_NEAR(ratio.standard_error, 0, 1e-12);
 }
@@ -187,7 +185,7 @@ TEST(CoverageOf, ThresholdRatios) {
 }
 
 // A participant missing at one reference is still drawn at the other; no one replaces another.
-TEST(Sensitivity, ARatioIsOfTheSamePeopleWhoeverIsMissing) {
+TEST(Sensitivity, ARatioIsOfTheSamePeopleIfSomeAreMissing) {
   RandomStream stream(41, "missing");
   std::vector<SessionData> all, missing, strangers;
   for (int i = 0; i < 12; ++i) {
@@ -261,7 +259,8 @@ Misled misled_by(const Population& population, bool papers, int n_people, int st
 }
 
 TEST(CoverageOf, NothingSeenGivesNoThreshold) {
-  for (int n_people : {13, 40})
+  const bool is_short = n_studies(0) == 0;
+  for (int n_people : is_short ? std::vector{13} : std::vector{13, 40})
     for (bool papers : {false, true})
       for (bool is_coin : {false, true}) {
         const Misled found = misled_by({.is_coin = is_coin}, papers, n_people, n_studies(2));
@@ -274,7 +273,7 @@ TEST(CoverageOf, NothingSeenGivesNoThreshold) {
       }
 }
 
-TEST(Hypotheses, AGoodObserverWhoseThresholdRisesIsToldSo) {
+TEST(Hypotheses, AGoodObserversRisingThresholdIsSupported) {
   RandomStream stream(9, "rising");
   std::vector<SessionData> sessions;
   for (int i = 0; i < 20; ++i) {

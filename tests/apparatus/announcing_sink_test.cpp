@@ -96,7 +96,7 @@ TEST_F(AnnouncedEvents, AreALineEachOnceTheyAreOnDisk) {
   EXPECT_THAT(heard(), HasSubstr(R"("kind":"sealed","head":"1a2b"})"));
 }
 
-TEST_F(AnnouncedEvents, ThatTheLogKeepsForLaterAreToldThen) {
+TEST_F(AnnouncedEvents, ThatTheLogKeepsForLaterAreSentThen) {
   listen();
   log_.busy = true;
   EXPECT_THROW(note("kept", Durability::acknowledged), LogBusy);
@@ -115,7 +115,7 @@ TEST_F(AnnouncedEvents, ThatTheLogRefusedHaveNeverBeen) {
   EXPECT_EQ(heard().find("lost"), std::string::npos);
 }
 
-TEST_F(AnnouncedEvents, AreCountedWhereNobodyListens) {
+TEST_F(AnnouncedEvents, AreCountedWhereNoOneListens) {
   note("alone", Durability::acknowledged);
   EXPECT_EQ(outlet_->n_dropped(), 1);
   listen();
@@ -139,7 +139,7 @@ TEST_F(AnnouncedEvents, KeepTheBeginningOfALongDetail) {
   EXPECT_THAT(heard(), HasSubstr('"' + std::string(240, 'x') + '"'));
 }
 
-TEST_F(AnnouncedEvents, ThatFillThePipeStopNobody) {
+TEST_F(AnnouncedEvents, ThatFillThePipeStopNoOne) {
   listen();
   for (int i = 0; i < 2000; ++i) note(std::string(200, 'x'), Durability::acknowledged);
   EXPECT_GT(outlet_->n_dropped(), 0);

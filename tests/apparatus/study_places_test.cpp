@@ -109,7 +109,7 @@ TEST(StudyPlaces, OfPilotsAndOtherStudiesDontCount) {
   EXPECT_EQ(log.next().id, "P01b");
 }
 
-TEST(StudyPlaces, AndIdsOfRehearsalsAreNobodyElses) {
+TEST(StudyPlaces, AndIdsOfRehearsalsAreNoOneElses) {
   Log log(six_people());
   for (const Purpose purpose : {Purpose::pilot, Purpose::test, Purpose::simulated})
     for (const char* number : {"01", "02"}) {
@@ -171,7 +171,7 @@ TEST(NearIds, OfAPlanMayLackItsPrefixAndZeros) {
     EXPECT_EQ(near_planned_id(id, plan), std::nullopt) << id;
 }
 
-TEST(NearIds, WithoutTheLettersOfARehearsalAreNobodys) {
+TEST(NearIds, WithoutTheLettersOfARehearsalAreNoOnes) {
   Log log(six_people());
   log.add_row("simulated-01", SessionState::finished, Purpose::simulated, {});
   EXPECT_EQ(near_id("1", log.sessions), std::nullopt);

@@ -62,7 +62,7 @@ class Mistakes(CommandLine):
         said = self.says(2, "replay", "--sesion", "3")
         self.assertIn("there is no option --sesion (did you mean --session?)", said)
 
-    def test_a_misspelled_option_is_told_before_what_it_left_out(self):
+    def test_a_misspelled_option_is_reported_before_what_it_left_out(self):
         for wrong, meant in (("--partcipant", "--participant"), ("--participnt", "--participant")):
             said = self.says(2, "run", QUICK, wrong, "01")
             self.assertIn(f"there is no option {wrong} (did you mean {meant}?)", said)
@@ -145,7 +145,7 @@ class Mistakes(CommandLine):
             self.says(1, "analyse", "--db", db)
         self.assertEqual(os.listdir(folder), [])
 
-    def test_what_a_library_throws_is_told_without_a_crash(self):
+    def test_what_a_library_throws_is_reported_without_a_crash(self):
         self.assertIn("/dev/null", self.says(1, "demo", "--out", "/dev/null/x"))
 
 
@@ -189,7 +189,7 @@ class Output(CommandLine):
                 self.assertLessEqual(len(lines), 24)
                 self.assertLessEqual(max(map(len, lines)), 80)
 
-    def test_a_newcomer_is_told_what_to_do_next_in_ten_lines(self):
+    def test_a_newcomer_reads_what_to_do_next_in_ten_lines(self):
         lines = self.at_a_terminal(80).splitlines()
         self.assertLessEqual(len(lines), 10)
         self.assertIn("What next?", lines[0])

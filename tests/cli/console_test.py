@@ -343,7 +343,7 @@ class FailedCheck(AtAConsole):
         self.shows("continue? y continues, n leaves, r checks again")
         self.assertEqual(self.n("text_shown", "and detail not like '%setting_up%'"), 0)
 
-    def test_nobody_is_shown_anything_when_the_experimenter_leaves(self):
+    def test_no_one_is_shown_anything_when_the_experimenter_leaves(self):
         self.terminal.press("xn")
         self.assertTrue(self.terminal.wait_for(lambda: self.terminal.program.poll() is not None))
         self.assertEqual(self.terminal.program.returncode, 130)

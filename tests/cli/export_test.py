@@ -315,7 +315,7 @@ class Export(SessionTest):
         self.run_heft("export", db, "--pseudonymise", "--out", f"{shared}/")
         self.assertTrue((self.folder / "deep" / "shared.key").exists())
 
-    def test_pseudonyms_leave_nobody_and_nothing_typed(self):
+    def test_pseudonyms_leave_no_one_and_nothing_typed(self):
         db = self.simulate("lab.db")
         secrets = {"Ann Person": "update session set participant = 'Ann Person' where session_id = 1",
                    "asked for water": "update trial set status = 'void', void_reason = 'asked for "

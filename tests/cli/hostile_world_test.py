@@ -142,7 +142,7 @@ class Readers(SessionTest):
         finally:
             os.close(write_end)
 
-    def test_talk_that_nobody_hears_ends_nothing(self):
+    def test_messages_that_no_one_reads_end_nothing(self):
         db = self.folder / "s.db"
         done = self.run_without_reader("run", PROTOCOLS / "quick.toml", "--participant", "01",
                                        "--responder", "simulated", "--seed", 5, "--db", db,
@@ -150,12 +150,12 @@ class Readers(SessionTest):
         self.assertEqual(done.returncode, 0)
         self.assertEqual(query(db, "select state from session"), [("finished",)])
 
-    def test_data_that_nobody_takes_is_an_error(self):
+    def test_data_that_no_one_takes_is_an_error(self):
         done = self.run_without_reader("scene", SCENE, "--trajectory", TRAJECTORY, gone="stdout")
         self.assertEqual(done.returncode, 1)
         self.assertIn("cannot write to the standard output: Broken pipe", done.stderr)
 
-    def test_a_file_that_may_not_grow_is_told(self):
+    def test_a_file_that_may_not_grow_is_reported(self):
         db = self.folder / "s.db"
         done = self.session(db, protocol="jnd", expect=1, preexec_fn=lambda: resource.setrlimit(
             resource.RLIMIT_FSIZE, (400_000, 400_000)))

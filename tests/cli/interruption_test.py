@@ -91,7 +91,7 @@ class Killed(SessionTest):
                 if os.path.exists(f"{self.folder}/copy.db{suffix}"):
                     os.remove(f"{self.folder}/copy.db{suffix}")
 
-    def test_the_gap_is_logged_and_time_goes_on(self):
+    def test_the_gap_is_logged_and_time_continues(self):
         db = self.folder / "s.db"
         self.kill_under_way(db)
         self.run_heft("resume", "--db", db)

@@ -92,7 +92,7 @@ class Questionnaires(SessionTest):
                                             "1,0,-0.1,0.025,1,0,0,0\n")
         return folder
 
-    def test_come_whatever_a_session_goes_on_with(self):
+    def test_come_with_anything_that_a_session_continues_with(self):
         for again in ([], ["--tracker", "synthetic"], ["--responder", "always_no"],
                       ["--simulator", "bullet-ea"], ["--view", f"video:{self.folder / 'v.avi'}"]):
             with self.subTest(again=again):
@@ -109,7 +109,7 @@ class Questionnaires(SessionTest):
                 self.db.unlink()
                 shutil.rmtree(self.folder / "recording")
 
-    def test_come_in_the_language_that_the_session_goes_on_in(self):
+    def test_come_in_the_language_that_the_session_continues_in(self):
         self.stopped_early()
         words = ("resume", "--db", self.db, "--responder", "coin", "--language", "fr")
         said = self.run_heft(*words, expect=2).stderr

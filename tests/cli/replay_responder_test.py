@@ -185,7 +185,7 @@ class ReplayResponder(SessionTest):
         self.assertEqual({path.name for path in self.folder.iterdir()} -
                          {"a.db", "a.db-wal", "a.db-shm"}, set())
 
-    def test_trials_without_frames_are_told(self):
+    def test_trials_without_frames_are_reported(self):
         self.run_heft("simulate", self.protocol, "--participants", 1, "--seed", 3, "--db", self.db)
         said = self.run_heft("replay", "--db", self.db, "--responder", "coin").stdout
         self.assertIn("without frames", said)
@@ -216,7 +216,7 @@ class ReplayResponder(SessionTest):
             self.run_heft("replay", "--db", self.db, *words, expect=2, cwd=self.folder)
         self.assertEqual([p.name for p in self.folder.iterdir() if "v.avi" in p.name], [])
 
-    def test_a_what_if_tells_lags_and_paths(self):
+    def test_a_what_if_shows_lags_and_paths(self):
         self.session(self.db)
         said = self.run_heft("replay", "--db", self.db, "--set",
                              "coupling.stiffness_n_per_m=100", "--tables").stdout

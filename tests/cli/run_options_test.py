@@ -48,7 +48,7 @@ class Options(SessionTest):
         self.assertIn("video63", self.refused(4, "--tracker", "camera:63", "--camera-file",
                                               str(APPARATUS / "synthetic_camera.yaml")))
 
-    def test_the_calibration_of_this_folder_is_taken_and_told(self):
+    def test_the_calibration_of_this_folder_is_taken_and_named(self):
         self.write("camera.yaml", (APPARATUS / "synthetic_camera.yaml").read_text(encoding="utf-8"))
         said = self.refused(4, "--tracker", "camera:63")
         self.assertIn("camera calibration: camera.yaml\n", said)
@@ -76,7 +76,7 @@ class Options(SessionTest):
         self.assertIn("film.avi already exists", self.refused(1, "--view", "video:film.avi"))
         self.assertEqual((self.folder / "film.avi").read_text(), "mine")
 
-    def test_a_resumed_session_goes_on_in_a_part_of_its_own(self):
+    def test_a_resumed_session_continues_in_a_part_of_its_own(self):
         db, film = self.folder / "a.db", self.folder / "film.avi"
         process = subprocess.Popen(
             [self.heft, "run", PROTOCOLS / "jnd.toml", "--participant", "01", "--responder",

@@ -88,7 +88,7 @@ class Running(SessionTest):
                           responder, "--seed", 1, "--db", db)
             self.assertEqual(query(db, "select state from session"), [("finished",)])
 
-    def test_ctrl_c_saves_everything_and_resume_goes_on(self):
+    def test_ctrl_c_saves_everything_and_resume_continues(self):
         whole, db = self.folder / "whole.db", self.folder / "s.db"
         self.session(whole, protocol="jnd")
         process = self.start_until_under_way(db)

@@ -112,14 +112,14 @@ class Plans(StudyTest):
         self.assertEqual(self.info(3)["study_place"], "1")
         self.assertIn("P02", self.next().stderr)
 
-    def test_its_sessions_go_on_and_replay(self):
+    def test_its_sessions_continue_and_replay(self):
         self.next()
         self.next()
         for session in (1, 2):
             said = self.run_heft("replay", "--db", self.db, "--session", session)
             self.assertIn("verified", said.stdout + said.stderr)
 
-    def test_one_that_was_killed_goes_on_in_its_order(self):
+    def test_one_that_was_killed_continues_in_its_order(self):
         self.next()  # as it would have been
         whole = self.folder / "logs" / "whole.db"
         self.db.rename(whole)
@@ -148,7 +148,7 @@ class Plans(StudyTest):
         self.plan.write_text(STUDY.replace("participants = 4", "participants = 8"))
         self.assertIn("2 of 8", self.next().stderr)
 
-    def test_a_protocol_that_was_changed_on_the_way_is_told(self):
+    def test_a_protocol_that_was_changed_on_the_way_is_reported(self):
         for _ in range(4):
             self.next()
         self.plan.write_text(STUDY.replace("participants = 4", "participants = 12"))
@@ -212,7 +212,7 @@ class Plans(StudyTest):
                 self.assertIn("one.en.toml and ", said.replace("two.en.toml and", "one.en.toml and"))
                 self.assertIn("both have a [questionnaire.two]", said)
 
-    def test_nobody_takes_anothers_place_by_a_slip(self):
+    def test_no_one_takes_anothers_place_by_a_slip(self):
         for near in ("P2", "p2", "2", "02"):
             said = self.next("--participant", near, expect=2).stderr
             self.assertIn(f'has no participant "{near}", but there is "P02"', said)
@@ -232,7 +232,7 @@ class Plans(StudyTest):
         self.assertIn("sorting", row["info_study_order"])
         self.assertFalse({"info_study_place", "info_study", "info_study_backup"} & row.keys())
 
-    def test_mistakes_are_told_at_their_places(self):
+    def test_mistakes_are_reported_at_their_places(self):
         self.plan.write_text(STUDY.replace('"comparison"]', '"comparisons"]'))
         for words in (["validate", self.plan], ["run", "--plan", self.plan]):
             said = self.run_heft(*words, expect=3).stderr
@@ -293,7 +293,7 @@ class NearIds(StudyTest):
 
 
 class ListAndShow(StudyTest):
-    def test_tell_who_what_and_how_far(self):
+    def test_show_who_what_and_how_far(self):
         self.next()
         self.next()
         self.session(self.db, "--purpose", "pilot", protocol="sorting", participant="X 9")
@@ -312,7 +312,7 @@ class ListAndShow(StudyTest):
             self.db, "select count(*) from trial where session_id = 1 and "
                      "status = 'completed'")[0][0])
 
-    def test_an_unfinished_one_says_how_to_go_on(self):
+    def test_an_unfinished_one_says_how_to_continue(self):
         db = self.folder / "it's.db"
         self.kill_under_way(db)
         said = self.run_heft("list", "--db", db)
@@ -326,7 +326,7 @@ class ListAndShow(StudyTest):
         self.assertEqual(shown["setups"][0]["responder"], "simulated")
         self.assertEqual(shown["state"], "running")
 
-    def test_an_estimate_below_what_was_done_is_not_told(self):
+    def test_an_estimate_below_what_was_done_is_not_printed(self):
         recording = self.folder / "recording"
         recording.mkdir()
         n_trials = 40
@@ -345,13 +345,13 @@ class ListAndShow(StudyTest):
         self.assertRegex(said, r"\b40\b")
         self.assertNotIn("of about", said)
 
-    def test_show_tells_nothing_of_masses(self):
+    def test_show_has_nothing_of_masses(self):
         self.next()
         said = self.run_heft("show", "--db", self.db).stdout
         self.assertIn("study mass: 1 of 4", said)
         self.assertNotRegex(said, r"\d+ ?g\b")
 
-    def test_show_tells_what_a_session_was_run_with(self):
+    def test_show_has_what_a_session_was_run_with(self):
         self.next("--set", "coupling.stiffness_n_per_m=80", "--simulator", "bullet")
         said = self.run_heft("show", "--db", self.db).stdout
         self.assertRegex(said, r"simulator bullet at \d+ Hz, view headless at \d+ Hz, input path")
@@ -403,7 +403,7 @@ class Backups(StudyTest):
         self.assertIsNone(process.poll(), "it was over before it could be stopped")
         return process
 
-    def test_that_fail_harm_nothing_and_are_told(self):
+    def test_that_fail_harm_nothing_and_are_reported(self):
         db, copies = self.folder / "a.db", self.folder / "copies"
         process = self.under_way(db)
         copies.rmdir()  # the stick is pulled out
@@ -414,7 +414,7 @@ class Backups(StudyTest):
         self.assertIn("is finished", said)
         self.assertEqual(query(db, "select state from session"), [("finished",)])
 
-    def test_go_on_with_the_session_without_a_plan_too(self):
+    def test_continue_with_the_session_without_a_plan_too(self):
         db = self.folder / "a.db"
         process = self.under_way(db)
         process.kill()
@@ -552,7 +552,7 @@ class Events(StudyTest):
         self.session(self.folder / "a.db", "--events", "serial:/dev/no", expect=4)
         self.assertFalse((self.folder / "a.db").exists())
 
-    def test_of_a_session_that_goes_on_are_told_too(self):
+    def test_of_a_session_that_continues_are_printed_too(self):
         db, pipe = self.folder / "a.db", self.folder / "pipe"
         self.kill_under_way(db)
         before = query(db, "select count(*) from event")[0][0]

@@ -129,7 +129,7 @@ class Window(unittest.TestCase):
     def start(self, *options, protocol=PROTOCOLS / "quick.toml"):
         """On a busy machine, too, which may fail the check of the picture rate."""
         command = [HEFT, "run", str(protocol), "--participant", "07", "--db", self.db,
-                   "--seed", "5", "--purpose", "test", "--go-on", *options]
+                   "--seed", "5", "--purpose", "test", "--ignore-failed-checks", *options]
         # A process group that has no parent in its session cannot be suspended.
         self.program = subprocess.Popen(command, env=self.screen.environment(), text=True,
                                         stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, process_group=0)
@@ -350,7 +350,7 @@ class Window(unittest.TestCase):
             self.assertIn(why, run.stderr)
             self.assertFalse(Path(self.db).exists())
 
-    def test_doctor_tells_of_display_graphics_typeface_and_touch(self):
+    def test_doctor_reports_on_display_graphics_typeface_and_touch(self):
         run = subprocess.run([HEFT, "doctor", "--db", self.db], env=self.screen.environment(),
                              text=True, capture_output=True, timeout=120)
         for line in (r"ok       display +0 \(.*\), 1024 x 600 pixels", r"graphics +\S",

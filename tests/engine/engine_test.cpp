@@ -577,18 +577,23 @@ TEST(Engine, SortingBlocksHavePlannedConditionsAndRuns) {
 TEST(Engine, BalancedOrdersUseEachOrderOncePerRound) {
   SessionPlan session_plan = small_plan();
   auto& block = *block_as<Sorting::Block>(session_plan.blocks[2]);
-  block.trials = {{"C1", 6}, {"C2", 6}};
+  constexpr std::ptrdiff_t orders_of_three_cubes = 6;
+  block.trials = {{"C1", 2 * orders_of_three_cubes}, {"C2", 2 * orders_of_three_cubes}};
   block.orders = SortingOrders::balanced;
   Session session(session_plan);
   session.reach_sorting();
-  std::map<std::string, std::set<std::vector<double>>> orders;
+  std::map<std::string, std::vector<std::vector<double>>> orders;
   while (session.engine.next().plan->task == "sorting") {
     const TrialPlan plan = session.start();
-    orders[plan.condition].insert(plan.masses_g);
+    orders[plan.condition].push_back(plan.masses_g);
     session.acts("dont_know");
   }
-  EXPECT_EQ(orders["C1"].size(), 6u);
-  EXPECT_EQ(orders["C2"].size(), 6u);
+  for (const std::string condition : {"C1", "C2"}) {
+    const auto& shown = orders[condition];
+    ASSERT_THAT(shown, ::testing::SizeIs(2 * orders_of_three_cubes));
+    for (const auto round : {shown.begin(), shown.begin() + orders_of_three_cubes})
+      EXPECT_EQ(std::set(round, round + orders_of_three_cubes).size(), 6u) << condition;
+  }
 }
 
 TEST(Engine, InvalidEventThrowsAndChangesNothing) {

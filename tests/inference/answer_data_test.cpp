@@ -116,7 +116,7 @@ TEST(AnswerData, WrongRowsAreRefusedInTheirPlace) {
     EXPECT_THAT(refusal_of(each.text, each.format), HasSubstr(each.message)) << each.text;
 }
 
-TEST(AnswerData, EveryMistakeIsToldUpToFifty) {
+TEST(AnswerData, EveryMistakeIsReportedUpToFifty) {
   std::string text = "x,response\n";
   for (int i = 0; i < 3; ++i) text += "a,b\n";
   const std::string three = refusal_of(text, psychometric);

@@ -56,9 +56,7 @@ const std::vector<Broken> broken_references{
      {"mass_g = 200 }", "mass_g = ^-1 }\ncatch_trials = { 200g = 2 }"},
      {"mass_g is -1"}},
     {"no_object", {"{ name = \"brass cylinder\", mass_g = 200 }", "^\"brass\""}, {"reference"}},
-    {"no_mass_twice",
-     {"mass_g = 200 }", "^mas_g = 200 }"},
-     {"mass_g"}},
+    {"no_mass_twice", {"mass_g = 200 }", "^mas_g = 200 }"}, {"mass_g"}},
     {"lighter_than_nothing", {"levels = [-150", "levels = [^-200"}, {"weigh 0 g"}},
 };
 

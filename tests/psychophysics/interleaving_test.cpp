@@ -47,7 +47,7 @@ TEST(Interleaving, RoundRobinTakesTheUnfinishedInFileOrder) {
               ElementsAre(0, 1, 2, 0, 2, 2));
 }
 
-TEST(Interleaving, RoundRobinGoesOnAfterTheLastCompletedTrial) {
+TEST(Interleaving, RoundRobinContinuesAfterTheLastCompletedTrial) {
   const auto staircases = staircases_of({5, 5, 5});
   RandomStream stream(1, "unused");
   const InterleaveConfig config{.interleave = Interleave::round_robin};
@@ -61,7 +61,7 @@ TEST(Interleaving, SequentialFinishesOneFirst) {
               ElementsAre(0, 0, 1, 1, 1, 2));
 }
 
-TEST(Interleaving, SequentialGoesOnWhereTheLagHoldsOneBack) {
+TEST(Interleaving, SequentialContinuesWhereTheLagHoldsOneBack) {
   EXPECT_THAT(order_of(staircases_of({3, 3}), {.interleave = Interleave::sequential, .max_lag = 2}),
               ElementsAre(0, 0, 1, 0, 1, 1));
 }

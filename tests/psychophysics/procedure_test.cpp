@@ -53,7 +53,7 @@ TEST(Procedure, AnyChoiceIsPositive) {
   EXPECT_THAT(response_of(Choice::reference).choice, Optional(Choice::reference));
 }
 
-TEST(Procedure, TellsWhatItPlans) {
+TEST(Procedure, ShowsWhatItPlans) {
   EXPECT_THAT(Procedure("s", test::paper_15g()).planned_levels(), ElementsAre(175));
   const Procedure constant("s", ConstantConfig{.levels = {5, -5, 20}, .n_per_level = 7});
   EXPECT_THAT(constant.planned_levels(), ElementsAre(5, -5, 20));

@@ -63,7 +63,7 @@ TEST(UpDown, AMoveCutShortStillTurns) {
   EXPECT_THAT(trace.reversal_levels, ElementsAre(5, 0));
 }
 
-TEST(UpDown, VirtualLevelGoesOnBeyondTheBound) {
+TEST(UpDown, VirtualLevelContinuesBeyondTheBound) {
   UpDownConfig config = fixed_step(10, 4);
   config.floor = 5;
   config.at_bound = AtBound::virtual_level;

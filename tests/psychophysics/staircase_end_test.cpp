@@ -51,7 +51,7 @@ TEST(UpDown, BothLimitsAtOnceIsReversals) {
   EXPECT_EQ(staircase.finish(), StopReason::reversals);
 }
 
-TEST(UpDown, LeastTrialsKeepItGoingAndReversalsGoOn) {
+TEST(UpDown, MinimumTrialsKeepItRunningAndReversalsContinue) {
   UpDownConfig config = fixed_step(10, 1);
   config.stop_reversals = 2;
   config.min_trials = 5;

@@ -128,7 +128,7 @@ TEST(UpDown, InitialRuleEndsWithAReversalDownwardsToo) {
   EXPECT_THAT(answer(config, "--+++").levels, ElementsAre(10, 11, 12, 11, 11, 10));
 }
 
-TEST(UpDown, ShownLevelIsTheReversalsValueAndPlansGoOn) {
+TEST(UpDown, ShownLevelIsTheReversalsValueAndPlansContinue) {
   UpDown staircase(paper_15g());
   staircase.respond(true, 180);
   EXPECT_EQ(staircase.level(), 125);

@@ -39,7 +39,7 @@ Pushes shown(const std::vector<FrameRow>& frames) {
   return most;
 }
 
-TEST(Pushes, AreToldAsTheyWereShown) {
+TEST(Pushes, AreReportedAsTheyWereShown) {
   const testing::StoredSession stored(testing::shipped_protocol("quick"), "simulated", 3);
   const auto cubes = stored.reader().cubes(stored.id());
   int n_coupled = 0, n_decoupled = 0;

@@ -22,9 +22,9 @@ DisplayedFrame pushing(double t_s, double effector_y_m, double lag_m, double cub
 }
 
 TEST(VisibleCues, APushHasItsLargestLagAndItsCubeAPath) {
-  CuesByMass noticed;
+  CuesByMass cues;
   {
-    CueMeter meter(noticed);
+    CueMeter meter(cues);
     const std::vector<double> masses_g{200, 15};
     for (int i = 0; i < 10; ++i) {
       const double y_m = 0.01 * i;
@@ -36,8 +36,8 @@ TEST(VisibleCues, APushHasItsLargestLagAndItsCubeAPath) {
     meter.add(pushing(3, 0.08, 0, 0.09), 1, masses_g);
     meter.add(pushing(3.1, 0.10, 0.01, 0.10), 1, masses_g);
   }
-  ASSERT_EQ(noticed.size(), 1u) << "the other cube was not pushed";
-  const VisibleCues& found = noticed.at(200);
+  ASSERT_EQ(cues.size(), 1u) << "the other cube was not pushed";
+  const VisibleCues& found = cues.at(200);
   EXPECT_EQ(found.n_pushes, 2);
   EXPECT_NEAR(found.mean_lag_m(), 0.02, 1e-12);
   EXPECT_NEAR(found.largest_lag_m, 0.03, 1e-12);
@@ -48,57 +48,57 @@ TEST(VisibleCues, APushHasItsLargestLagAndItsCubeAPath) {
 
 // After an answer that shuffles or replaces the cubes, which are back in their places at once.
 TEST(VisibleCues, OfCubesWithNewMassesAreTheirOwn) {
-  CuesByMass noticed;
+  CuesByMass cues;
   {
-    CueMeter meter(noticed);
+    CueMeter meter(cues);
     for (int i = 0; i < 10; ++i)
       meter.add(pushing(0.1 * i, 0.01 * i, 0.03, 0.01 * i), 1, {200, 15});
     for (int i = 0; i < 10; ++i)
       meter.add(pushing(1 + 0.1 * i, 0.01 * i, 0.02, 0.01 * i), 1, {150, 15});
   }
-  ASSERT_TRUE(noticed.contains(200) && noticed.contains(150));
+  ASSERT_TRUE(cues.contains(200) && cues.contains(150));
   for (const auto& [mass_g, lag_m] : {std::pair(200.0, 0.03), std::pair(150.0, 0.02)}) {
-    EXPECT_EQ(noticed.at(mass_g).n_pushes, 1) << mass_g;
-    EXPECT_NEAR(noticed.at(mass_g).mean_lag_m(), lag_m, 1e-12);
-    EXPECT_NEAR(noticed.at(mass_g).mean_path_m(), 0.09, 1e-12);
+    EXPECT_EQ(cues.at(mass_g).n_pushes, 1) << mass_g;
+    EXPECT_NEAR(cues.at(mass_g).mean_lag_m(), lag_m, 1e-12);
+    EXPECT_NEAR(cues.at(mass_g).mean_path_m(), 0.09, 1e-12);
   }
 }
 
 TEST(VisibleCues, AShortGapIsTheSamePushAndAnotherCubeAnotherOne) {
-  CuesByMass noticed;
+  CuesByMass cues;
   {
-    CueMeter meter(noticed);
+    CueMeter meter(cues);
     const std::vector<double> masses_g{200, 15};
     meter.add(pushing(0, 0, 0, 0), 1, masses_g);
     meter.add(pushing(0.1, 0.01, 0, 0), std::nullopt, masses_g);
     meter.add(pushing(0.19, 0.02, 0, 0), 1, masses_g);
     meter.add(pushing(0.3, 0.03, 0, 0), 2, masses_g);
   }
-  EXPECT_EQ(noticed.at(200).n_pushes, 1);
-  EXPECT_EQ(noticed.at(15).n_pushes, 1);
+  EXPECT_EQ(cues.at(200).n_pushes, 1);
+  EXPECT_EQ(cues.at(15).n_pushes, 1);
 }
 
 TEST(VisibleCues, ACubePutBackHasNotGoneThere) {
-  CuesByMass noticed;
+  CuesByMass cues;
   {
-    CueMeter meter(noticed);
+    CueMeter meter(cues);
     meter.add(pushing(0, 0, 0, 0), 1, {200, 15});
     meter.add(pushing(0.1, 0.05, 0, 0.05), 1, {200, 15});
     meter.add(pushing(0.2, 0.05, 0, 0), std::nullopt, {200, 15});
   }
-  EXPECT_NEAR(noticed.at(200).mean_path_m(), 0.05, 1e-12);
-  EXPECT_NEAR(noticed.at(200).mean_end_m(), 0, 1e-12);
+  EXPECT_NEAR(cues.at(200).mean_path_m(), 0.05, 1e-12);
+  EXPECT_NEAR(cues.at(200).mean_end_m(), 0, 1e-12);
 }
 
 // μ m g / k: twice the stiffness, half the lag, the same grams.
-TEST(VisibleCues, AWhatIfTellsLagsBeforeAndAfter) {
+TEST(VisibleCues, AWhatIfShowsLagsBeforeAndAfter) {
   const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
   const auto header = stored.session().row.header;
   const Protocol stiffer = parse_protocol(header.protocol_text, header.protocol_name,
                                           {{"coupling.stiffness_n_per_m", "100"}});
   bool compared = false;
   for (const PathDifference& kind : compare_paths(stored.reader(), stored.session(), stiffer))
-    for (const CueDifference& cube : kind.noticed) {
+    for (const CueDifference& cube : kind.cues) {
       if (kind.condition == "C1") {
         EXPECT_LT(cube.would_be.largest_lag_m, 1e-9);
         EXPECT_FALSE(kind.logged_g_per_m);
@@ -118,7 +118,7 @@ TEST(VisibleCues, TheSameWorldIsNoticedTheSame) {
   const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
   for (const PathDifference& kind :
        compare_paths(stored.reader(), stored.session(), *stored.session().protocol))
-    for (const CueDifference& cube : kind.noticed) {
+    for (const CueDifference& cube : kind.cues) {
       EXPECT_EQ(cube.logged.n_pushes, cube.would_be.n_pushes);
       EXPECT_EQ(cube.logged.lag_m, cube.would_be.lag_m);
       EXPECT_EQ(cube.logged.path_m, cube.would_be.path_m);

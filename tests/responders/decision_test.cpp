@@ -40,7 +40,7 @@ TEST(Decision, SortingLabelsByPerceptOrGivesUp) {
   EXPECT_THAT(given_labels(decide(certain(), "sorting", {1, 2, 3})), IsEmpty());
 }
 
-TEST(Decision, GuessesAsOftenAsItIsToldTo) {
+TEST(Decision, GuessesAsOftenAsItsParameterSays) {
   ResponderParameters parameters = certain();
   parameters.judgment_noise_mm = 0.1;
   parameters.guess_probability = 0.3;

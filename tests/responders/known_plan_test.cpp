@@ -99,7 +99,7 @@ TEST(Weber, SortsInEveryTechniqueAlike) {
               ElementsAre("select 2 "));
 }
 
-TEST(KnownPlan, IsGivenToThoseWhoDeclareItAndGoesToNobodyWhoLooks) {
+TEST(KnownPlan, IsGivenOnlyToRespondersThatDeclareIt) {
   for (const ResponderEntry& entry : responders()) {
     if (entry.file == ResponderFile::folder) continue;
     const bool knows = entry.name == "start_anchored" || entry.name == "weber";

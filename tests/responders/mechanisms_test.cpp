@@ -176,7 +176,7 @@ TEST(CriterionDrift, GrowsFromTrialToTrialAndStaysBounded) {
   }
 }
 
-TEST(CriterionDrift, OfOneParticipantIsTheSameWhereverItsSessionGoesOn) {
+TEST(CriterionDrift, OfOneParticipantIsTheSameWhereverItsSessionContinues) {
   ResponderParameters parameters;
   parameters.criterion_mm = 5;
   parameters.criterion_drift_mm = 3;

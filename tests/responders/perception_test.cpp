@@ -51,7 +51,7 @@ std::vector<double> percepts_mm(const ResponderParameters& parameters,
 }
 
 // Judging looks at these frames alone.
-TEST(Perception, FramesWithoutTouchesTellNothing) {
+TEST(Perception, FramesWithoutTouchesShowNothing) {
   const Stage stage = fake::row_of(3, 15);
   const TrialView trial{1, 1, "sorting", stage};
   Hand hand(default_parameters(), 9, trial);
@@ -111,7 +111,7 @@ TEST(Perception, OffsetsThatAreNotVisibleAreNothing) {
   EXPECT_GT(percepts[1], 20);
 }
 
-TEST(Perception, HalfThePicturesTellSomethingElse) {
+TEST(Perception, HalfThePicturesShowSomethingElse) {
   for (const auto& parameters : {default_parameters(), noiseless()}) {
     const auto at_15 = percepts_mm(parameters, {100, 200, 300}, 15);
     const auto at_7 = percepts_mm(parameters, {100, 200, 300}, 7.5);
@@ -179,7 +179,7 @@ TEST_F(PictureTest, AnotherCubeIsAnotherLookEvenAtOnce) {
   EXPECT_NEAR(perception_.percepts_mm()[1], 10, 1e-9);
 }
 
-TEST_F(PictureTest, AnEffectorOutOfViewTellsNothing) {
+TEST_F(PictureTest, AnEffectorOutOfViewShowsNothing) {
   perception_.see(touching(1, 1));
   DisplayedFrame frame = touching(1, 5);
   frame.tracked = false;

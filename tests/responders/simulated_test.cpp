@@ -108,7 +108,7 @@ TEST(Simulated, SortsInC2FarAboveChanceAndAtChanceWithoutTheClone) {
   RecordProperty("answered_hidden", hidden.answered);
 }
 
-TEST(Simulated, ComparesRightWhereTheCloneTellsAndSeesNoDifferenceBetweenEquals) {
+TEST(Simulated, ComparesRightWhereTheCloneShowsAndSeesNoDifferenceBetweenEquals) {
   int n_right = 0, n_different = 0;
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const auto responder = make("simulated", seed);

@@ -40,7 +40,7 @@ int edges_of(const TagPattern& pattern) {
 
 // Edges end in corners, which tell a little less. An edge of contrast c in normal blur of s and
 // noise of v tells c^2 / (2 sqrt(pi) s v) of a shift across it, for each pixel of its length.
-TEST(TipBound, AShiftIsToldByTheLengthOfAllEdges) {
+TEST(TipBound, AShiftIsBoundedByTheLengthOfAllEdges) {
   const Apparatus apparatus = with_upper_tag();
   const SyntheticSettings settings = from_above();
   const Pose flat{{0.013, 0.007, 0.02}, Eigen::Quaterniond::Identity()};

@@ -68,7 +68,7 @@ TEST(EnergyBalance, ASteadyPushIsAllFriction) {
   EXPECT_NEAR(balance->left_j(), 0, 1e-3 * rubbed_j);
 }
 
-TEST(EnergyBalance, IsNotToldOfStacks) {
+TEST(EnergyBalance, IsNotStatedForStacks) {
   BenchScene scene = along_x(upright_pose({-0.2, 0, 0.1}, 0), 0, 0.1);
   scene.scene.cubes = {Cube{}, Cube{}};
   scene.scene.cubes[1].position_m.z() += 0.035;

@@ -113,7 +113,7 @@ TEST(Reference, TwoEnginesAgreeHowACubeTurns) {
   }
 }
 
-TEST(Reference, OfATurnIsTheOtherEnginesTooAndTellsHowOpenRigidBodiesLeaveIt) {
+TEST(Reference, OfATurnIsTheOtherEnginesTooAndShowsHowOpenRigidBodiesLeaveIt) {
   const Reference reference = reference_of(bench_scene("corner_push"), false);
   if (reference.method.find("ODE") == std::string::npos) GTEST_SKIP() << "built without ODE";
   EXPECT_LT(reference.uncertainty_mm, 0.02);

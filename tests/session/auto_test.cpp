@@ -83,7 +83,7 @@ TEST_F(AutoSimulator, IsLoggedWithItsReasonAndReplayed) {
   EXPECT_EQ(divergence(), "");
 }
 
-TEST_F(AutoSimulator, StaysAsTheLogSaysWhenTheSessionGoesOnAndTheTableSaysAnother) {
+TEST_F(AutoSimulator, StaysAsTheLogSaysWhenTheSessionContinuesAndTheTableSaysAnother) {
   SessionConfig earlier = resolved()->config;
   earlier.simulator = "bullet-lx";  // as if the table had picked it at the start
   earlier.rate_hz = 120;
@@ -101,7 +101,7 @@ TEST_F(AutoSimulator, StaysAsTheLogSaysWhenTheSessionGoesOnAndTheTableSaysAnothe
   EXPECT_EQ(divergence(), "");
 }
 
-TEST_F(AutoSimulator, GivesWayToOneThatIsNamedWhenTheSessionGoesOn) {
+TEST_F(AutoSimulator, GivesWayToOneThatIsNamedWhenTheSessionContinues) {
   ASSERT_EQ(run_until(2).end, RunEnd::stopped);
   const LoggedSession session = session_to_resume(db, std::nullopt);
   const ResolvedConfig config = resumed(session, "bullet-ea");
@@ -119,7 +119,7 @@ TEST_F(AutoSimulator, MayBeAskedForInTheProtocol) {
   EXPECT_EQ(resolved()->protocol->simulator.name, resolve_auto(protocol).simulator);
 }
 
-TEST_F(AutoSimulator, LeavesNoTraceWhereNobodyAskedForIt) {
+TEST_F(AutoSimulator, LeavesNoTraceWhereNoOneAskedForIt) {
   options.simulator = "bullet";
   const ResolvedConfig config = resolved();
   EXPECT_EQ(config->config.simulator_reason, "");

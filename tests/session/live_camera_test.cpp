@@ -236,7 +236,7 @@ TEST(LiveCamera, ThatDoesNotSeeTheEffectorPausesNothing) {
 
 // Nobody asked for pictures while pages were read, or while the session lay still until it was
 // resumed; that is no silence of the camera's.
-TEST(LiveCamera, IsNotLostBecauseNobodyAskedIt) {
+TEST(LiveCamera, IsNotLostBecauseNoOneAskedIt) {
   LiveSession session(5, patient);
   session.clock.restart(1000);
   EXPECT_EQ(session.run(), RunEnd::finished);

@@ -190,7 +190,7 @@ TEST(Person, ATouchOnThePageBeforeMeansNothingOnThisOne) {
   EXPECT_THAT(session.events(event_kind<ActionRefused>), IsEmpty());
 }
 
-TEST(Person, WhatTheyTellAboutThemselvesIsKept) {
+TEST(Person, WhatTheySayAboutThemselvesIsKept) {
   Protocol protocol = quick_protocol();
   protocol.screens.about_you = true;
   bool told = false;
@@ -273,7 +273,7 @@ struct ScriptedConsole : MadeUpConsole {
   std::deque<ConsoleCommand> to_come;
 };
 
-TEST(Experimenter, HoldsTheSessionAndLetsItGoOn) {
+TEST(Experimenter, HoldsTheSessionAndLetsItContinue) {
   ScriptedConsole console({{ConsoleCommandKind::pause, {}}, {ConsoleCommandKind::proceed, {}}});
   Session session(quick_protocol());
   EXPECT_EQ(session.run(&console), RunEnd::finished);
@@ -379,7 +379,7 @@ TEST_F(FailedCheck, LeavesTheSessionToBeResumedWhenTheyDoNot) {
   EXPECT_EQ(session.engine.state(), SessionState::paused);
 }
 
-TEST_F(FailedCheck, EndsTheSessionToBeResumedWhereNobodyCanBeAsked) {
+TEST_F(FailedCheck, EndsTheSessionToBeResumedWhereNoOneCanBeAsked) {
   try {
     run();
     ADD_FAILURE() << "it went on";
@@ -393,7 +393,7 @@ TEST_F(FailedCheck, EndsTheSessionToBeResumedWhereNobodyCanBeAsked) {
   EXPECT_EQ(session.engine.state(), SessionState::paused);
 }
 
-TEST_F(FailedCheck, IsGoneOverWhereNobodyCanBeAskedAndThatWasAskedFor) {
+TEST_F(FailedCheck, IsIgnoredWhereNoOneCanBeAskedIfSoRequested) {
   ignore_failed_checks = true;
   EXPECT_EQ(run(), RunEnd::finished);
   EXPECT_THAT(notes(),
@@ -538,7 +538,7 @@ TEST(Person, WhoComesBackInTheMiddleOfABlockIsNotInstructedAgain) {
       << "of the next block they are";
 }
 
-TEST(Person, WhoLeavesAfterPracticeIsToldAgainThatItIsOver) {
+TEST(Person, WhoLeavesAfterPracticeReadsAgainThatItHasEnded) {
   Protocol protocol = quick_protocol();
   protocol.blocks = {practiced_sorting("one")};
   bool closes = true;

@@ -190,7 +190,7 @@ TEST(Questionnaires, AnAnswerTakenBackComesBeforeThePagesThatAreLeftAndNoneComes
                           "how_decided", "trial_comparison", "thanks"));
 }
 
-TEST(Questionnaires, WhoComesBackIsNotAskedAgainAndGoesOnWhereTheyLeft) {
+TEST(Questionnaires, WhoComesBackIsNotAskedAgainAndContinuesWhereTheyLeft) {
   Asked person(3);
   TappedSession session(asking(), texts_with(all), std::ref(person));
   session.before.entries = {{"sorting.nasa_tlx.done_s", "12.000"},

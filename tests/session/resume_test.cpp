@@ -127,7 +127,7 @@ low = "Easy"
 high = "Hard"
 )";
 
-TEST_F(Resumed, AfterAPersonAModelGoesOnAndNobodyTakesItForAPersons) {
+TEST_F(Resumed, AModelThatContinuesAPersonsSessionIsNotTakenForAPerson) {
   start_as_a_person();
   EXPECT_FALSE(analysed().simulated());
   EXPECT_EQ(continue_with(a_model("simulated"), 1000).end, RunEnd::finished);
@@ -174,7 +174,7 @@ TEST_F(Resumed, AnotherSimulatorIsInForceFromThereOn) {
   EXPECT_EQ(changes_between(setups[0].setup, setups[1].setup).front().column, "simulator");
 }
 
-TEST_F(Resumed, WhatIsGivenAgainAsItWasIsNotToldAgain) {
+TEST_F(Resumed, WhatIsGivenAgainUnchangedIsNotLoggedAgain) {
   start();
   SessionOptions given = a_model("simulated");
   given.simulator = request.config->config.simulator;

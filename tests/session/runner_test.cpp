@@ -180,7 +180,7 @@ TEST(Runner, AModelDoesNotWaitForEverForAnEffectorThatIsNeverSeen) {
   }
 }
 
-TEST(Runner, AShortCameraLossPausesTheTrialAndItGoesOn) {
+TEST(Runner, AShortCameraLossPausesTheTrialAndItContinues) {
   Bench bench(two_trials(), [](int attempt, double t_s, Picture& picture) {
     if (attempt == 1 && t_s > 0.3 && t_s < 3) picture.trouble = "camera_lost";
   });

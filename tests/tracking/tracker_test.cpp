@@ -101,7 +101,7 @@ TEST(Tracker, RemovingABiasThatIsNotThereDoesNoHarm) {
             1.06 * Errors::p95(errors_at_random_places(640, kept, 120).tip_mm));
 }
 
-TEST(Tracker, KnowsThatAnOverexposedPictureTellsLittle) {
+TEST(Tracker, KnowsThatAnOverexposedPictureShowsLittle) {
   const Apparatus apparatus = default_apparatus(640);
   SyntheticSettings scene;
   scene.optics.exposure = 1.5;
@@ -115,7 +115,7 @@ TEST(Tracker, KnowsThatAnOverexposedPictureTellsLittle) {
 }
 
 // The same grip, rolled: how far each pose is off is luck, how firm it is is not.
-TEST(Tracker, KnowsThatOneFaceTellsLessThanTwo) {
+TEST(Tracker, KnowsThatOneFaceShowsLessThanTwo) {
   const Apparatus apparatus = default_apparatus(640);
   SyntheticSettings scene;
   scene.hand = false;
@@ -212,7 +212,7 @@ TEST_F(TrackerOverTime, MotionIsNoJump) {
 }
 
 // Found by its edges where it should be by now: once it is seen to move, nothing is searched for.
-TEST_F(TrackerOverTime, WhatGoesOnAsItDidIsNotSearchedFor) {
+TEST_F(TrackerOverTime, WhatMovesAsBeforeIsNotSearchedFor) {
   for (int i = 0; i < 8; ++i) {
     const Pose truth = held_at(0.013 * i, 0.01);
     const auto seen = see(truth, i / 30.0);

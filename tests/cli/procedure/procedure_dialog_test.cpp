@@ -9,7 +9,7 @@
 namespace heft::cli {
 namespace {
 
-TEST(ProcedureDialog, TellsTheIntervalOfAnEstimate) {
+TEST(ProcedureDialog, ShowsTheIntervalOfAnEstimate) {
   std::istringstream in(R"({"response":true}
 {"response":false}
 )");

@@ -105,7 +105,7 @@ TEST(PredictiveCheck, OfTheModelItselfHasUniformP) {
   EXPECT_NEAR(n_below_half, 0.5 * studies, 3 * std::sqrt(0.25 * studies));
 }
 
-TEST(PredictiveCheck, TellsAModelThatHoldsFromOthers) {
+TEST(PredictiveCheck, DistinguishesAModelThatHoldsFromOthers) {
   const int studies = n_studies(6);
   for (const auto& [growth, n_people, fewest, most] :
        {std::tuple{1.0, 40, 0.0, 0.05}, {3.0, 40, 0.8, 1.0}, {3.0, 13, 0.35, 1.0}}) {

@@ -97,7 +97,7 @@ TEST(Thurstone, OfSeveralPeopleIsScaledToTheirVariance) {
   EXPECT_NEAR(found.interval->high, 1.58823015332, 1e-5);
 }
 
-TEST(Thurstone, MoreTrialsOfTheSamePeopleTellNoMoreOfOthers) {
+TEST(Thurstone, MoreTrialsOfTheSamePeopleSayNoMoreOfOthers) {
   const Interval few = *perceived_values(pairs(1)).at(1).from_lowest.interval;
   const Interval many = *perceived_values(pairs(9)).at(1).from_lowest.interval;
   EXPECT_NEAR(few.low, many.low, 1e-5);

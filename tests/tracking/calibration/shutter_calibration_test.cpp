@@ -85,7 +85,7 @@ TEST(ShutterCalibration, RefusesPicturesWithoutNeighbors) {
   EXPECT_THROW(found(0.025, 1, 2), Error);
 }
 
-TEST(ShutterCalibration, TellsTheSpeedOfHalfAMillimeter) {
+TEST(ShutterCalibration, ShowsTheSpeedOfHalfAMillimeter) {
   EXPECT_NEAR(half_millimeter_m_s(0.025), 0.2, 1e-9);
 }
 

@@ -99,7 +99,7 @@ TEST(LiveCamera, TheSamePictureOverAndOverIsAFrozenCamera) {
   EXPECT_EQ(thawed->capture_s, 21);
 }
 
-TEST(LiveCamera, GoesOnAfterADeviceWasUnplugged) {
+TEST(LiveCamera, ContinuesAfterADeviceWasUnplugged) {
   FakeDevice device;
   LiveCamera camera(device.grab(), {}, pause_s);
   device.give(1, 0);

@@ -27,7 +27,7 @@ TEST(CaptureTime, IsTheMiddleOfTheExposureOfABelievableDriver) {
   EXPECT_DOUBLE_EQ(capture_time_s(100, 100, 0.004), 99.998);
 }
 
-TEST(CaptureTime, IsArrivalWhereTheDriverTellsNonsense) {
+TEST(CaptureTime, IsArrivalWhereTheDriverReportsNonsense) {
   for (const double driver_s : {0.0, 42.0, 98.9, 100.5, 1.7e9})
     EXPECT_DOUBLE_EQ(capture_time_s(driver_s, 100, 0.004), 99.998) << driver_s;
 }
@@ -132,7 +132,7 @@ TEST(LockControls, KeepsNoFocusThatCanNotBeSet) {
   EXPECT_FALSE(mode.held.focus);
 }
 
-TEST(RequestFor, IsTheUsualOneWhereTheFileTellsNothing) {
+TEST(RequestFor, IsTheUsualOneWhereTheFileShowsNothing) {
   const CameraRequest request = request_for(parse_intrinsics(to_yaml({}, ""), "c.yaml"), 15);
   EXPECT_EQ(request.exposure_s, CameraRequest{}.exposure_s);
   EXPECT_EQ(request.rate_hz, 30);

@@ -133,7 +133,7 @@ Found tracked(bool told, int n_lost = 0) {
   return found;
 }
 
-TEST(RollingShutter, ATrackerThatIsToldOfItFollowsMotion) {
+TEST(RollingShutter, ATrackerThatKnowsItFollowsMotion) {
   const Found told = tracked(true), untold = tracked(false);
   EXPECT_GE(told.n, 18);
   EXPECT_LT(told.best_early_quality, 0.3);  // without a velocity, centimeters may be wrong

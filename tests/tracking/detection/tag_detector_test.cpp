@@ -99,7 +99,7 @@ TEST(TagDetector, FindsAClearTagInNoiseEitherWay) {
     EXPECT_EQ(detector.detect(image, whole(image), search).size(), 1U);
 }
 
-TEST(TagDetector, OneDetectorGoesOnWhenAnotherOfItsFamilyEnds) {
+TEST(TagDetector, OneDetectorContinuesWhenAnotherOfItsFamilyEnds) {
   const Image image = drawn("tag36h11", 7);
   TagDetector detector("tag36h11", 1);
   { TagDetector other("tag36h11", 1); }

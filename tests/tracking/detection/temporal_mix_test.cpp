@@ -51,7 +51,7 @@ double share_after(int n_pictures, double share, double gain_change = 0) {
   return mix.share();
 }
 
-TEST(TemporalMix, IsToldByNoiseWhereNothingMoves) {
+TEST(TemporalMix, IsRecognizedByNoiseWhereNothingMoves) {
   EXPECT_EQ(share_after(20, 0), 0);
   EXPECT_NEAR(share_after(20, 0.3), 0.3, 0.03);
   EXPECT_NEAR(share_after(30, 0.6), 0.6, 0.06);

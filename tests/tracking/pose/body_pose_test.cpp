@@ -46,7 +46,7 @@ void expect_near(const Pose& a, const Pose& b, double m, double rad) {
   EXPECT_LT(a.orientation.angularDistance(b.orientation), rad);
 }
 
-TEST(PlanarPose, OneOfItsTwoPosesIsTheTrueOneWhereverTheTagSits) {
+TEST(PlanarPose, ItsFirstPoseIsTheTrueOneWhereverTheTagIs) {
   RandomStream random(1, "poses");
   const MarkerBody effector = box_effector(0.032);
   for (int i = 0; i < 100; ++i) {
@@ -80,7 +80,7 @@ TEST(BodyPose, IsExactForExactEdges) {
   }
 }
 
-TEST(BodyPose, TellsBiasFromDistanceOnABoard) {
+TEST(BodyPose, DistinguishesBiasFromDistanceOnABoard) {
   const MarkerBody board = grid_board(6, 4, .040, .048);
   const auto fit = solve_body(observations(board, from_board, -0.28), std::nullopt, {0, 0.5});
   ASSERT_TRUE(fit);
@@ -123,7 +123,7 @@ TEST(BodyPose, WhereThePictureCanNotDecideTheExpectedPoseDoes) {
 
 // The top face's tag alone, a little tilted: its mirror image is so near that both are one flat
 // minimum.
-TEST(BodyPose, TwoTiltsThatLookAlikeAreToldByTheQuality) {
+TEST(BodyPose, TwoTiltsThatLookAlikeLowerTheQuality) {
   MarkerBody top = box_effector(0.032);
   top.tags = {top.tags[1]};
   const Eigen::Quaterniond facing(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
