@@ -10,6 +10,7 @@ import re
 import shlex
 import shutil
 import subprocess
+import sys
 import tomllib
 import unittest
 from pathlib import Path
@@ -75,6 +76,8 @@ class Code(New):
         for language in ("en", "fr"):
             texts = tomllib.loads((copy / f"protocols/texts/{language}.toml").read_text(encoding="utf-8"))
             self.assertLessEqual({"trial_odd_one_out", "instructions_odd_one_out"}, set(texts))
+        done = subprocess.run([sys.executable, copy / "tests" / "structure_test.py"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr[-3000:])
         # Together, as most of a file's time is its headers'.
         whole = copy / "all.cpp"
         whole.write_text("".join(f'#include "{copy / path}"\n' for path in sorted(set(sources))))

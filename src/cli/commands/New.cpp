@@ -260,7 +260,8 @@ void add_to_source(const Kind& kind, const std::string& name) {
   print(
       "\nNext: write what is marked TODO in these files. In {},\n"
       "  ./heft test -R {}\n"
-      "fails until then, and names the function to write. ./heft test runs all tests.\n",
+      "fails until then, and names the function to write. ./heft test runs all tests;\n"
+      "clang-format -i FILE formats a file.\n",
       source.string(), names.in(kind.test));
 }
 
