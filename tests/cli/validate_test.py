@@ -136,15 +136,16 @@ protocol = "asks.toml"
         self.assertGreaterEqual(len(paths), 5)
         run = self.validate(*paths)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
-        lines = run.stdout.splitlines()
-        self.assertEqual(len(lines), len(paths))
-        for path, line in zip(paths, lines):
+        said = re.split(r"\n(?! )", run.stdout.rstrip())
+        for path, text in zip(paths, said, strict=True):
             self.assertRegex(
-                line,
+                text,
                 rf"^{re.escape(str(path))}: ok, a protocol: about \d+ trials"
-                r"( \(\d+ to \d+ in 6 simulated participants\))? and \d+ min"
-                r".*; what a study can find: heft power$"
+                r"( \(\d+ to \d+ in 6 simulated participants\))? and \d+ min\n"
+                r"  assuming a trial of .*(\n  .*)?\n  what a study can find: heft power$"
             )
+            for line in text.splitlines()[1:]:
+                self.assertLessEqual(len(line), 80)
 
     def test_a_simulator_for_one_stroke_is_warned_of_and_no_mistake(self):
         text = (PROTOCOLS / "quick.toml").read_text(encoding="utf-8")
@@ -181,7 +182,7 @@ protocol = "asks.toml"
             self.assertEqual((run.returncode, run.stderr), (0, ""))
             self.assertRegex(
                 run.stdout,
-                rf'^{re.escape(str(path))}: ok, a text file: \d+ page\(s\) in the language "{path.stem}"$',
+                rf'^{re.escape(str(path))}: ok, a text file: \d+ pages in the language "{path.stem}"$',
             )
 
     def test_a_text_file_says_which_word_is_missing(self):

@@ -90,12 +90,12 @@ std::optional<TrialsOfSome> trials_of_simulated(const Protocol& protocol, int pa
   return std::nullopt;
 }
 
-// "10 s per comparison trial, 25 s per sorting trial"
+// "comparison 10 s, sorting 25 s"
 std::string assumed_text(const Protocol& protocol, const TrialsByTask& trials) {
   std::string text;
   for (const auto& [task, n] : trials)
-    text += fmt::format("{}{:g} s per {} trial", text.empty() ? "" : ", ",
-                        assumed_trial_s(protocol, task), task);
+    text +=
+        fmt::format("{}{} {:g} s", text.empty() ? "" : ", ", task, assumed_trial_s(protocol, task));
   return text;
 }
 
@@ -109,11 +109,12 @@ std::string described(const Protocol& protocol, std::vector<std::string>& cautio
       simulated = fmt::format(" ({:.0f} to {:.0f} in {} simulated participants)", taken->least,
                               taken->most, participants);
     }
-  std::string text = fmt::format(
-      "about {}{} and {:.0f} min\n  assuming {}", counted(std::lround(total_of(trials)), "trial"),
-      simulated, expected_minutes(protocol, trials), assumed_text(protocol, trials));
-  if (protocol.simulator.name == "auto") text += "; " + described(resolve_auto(protocol));
-  return text + "; what a study can find: heft power";
+  std::string text =
+      fmt::format("about {}{} and {:.0f} min\n  assuming a trial of {}",
+                  counted(std::lround(total_of(trials)), "trial"), simulated,
+                  expected_minutes(protocol, trials), assumed_text(protocol, trials));
+  if (protocol.simulator.name == "auto") text += "\n  " + described(resolve_auto(protocol));
+  return text + "\n  what a study can find: heft power";
 }
 
 // Summary and cautions of a valid file.

@@ -18,7 +18,7 @@ class RealReference(SessionTest):
     def test_example_is_simulated_replayed_exported_and_analysed(self):
         said = self.run_heft("validate", EXAMPLE).stdout
         self.assertIn(": ok,", said)
-        self.assertIn("15 s per comparison trial", said)
+        self.assertIn("comparison 15 s", said)
         db = self.folder / "s.db"
         self.run_heft("simulate", EXAMPLE, "--participants", 6, "--seed", 4, "--db", db)
         self.run_heft("replay", "--db", db)  # fails where a row differs
