@@ -1,10 +1,12 @@
-// Adjustments: how far the masses that participants set lie from the reference (bias, in g and in
-// percent) and how much they vary (spread).
+// Adjustments: how far the masses that participants set are from the reference (bias, in g and in
+// percent), how much they vary (spread), and how much they follow the mass that the comparison had
+// at first (start effect).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "analysis/measures/Section.h"
@@ -25,19 +27,36 @@ constexpr Measure spread{
     "adjustment_spread", "g", "spread",
     "standard deviation of a participant's settings: mean over participants, Student's t interval"};
 
+constexpr Measure start_effect{
+    "adjustment_start_effect", "", "start effect",
+    "slope of a participant's settings on the first masses of the comparison, least squares: 0 if "
+    "the start has no influence, 1 if settings differ as the starts do; mean over participants, "
+    "Student's t interval"};
+
 struct Compared {
   std::string condition;
   double reference_g = 0;
   auto operator<=>(const Compared&) const = default;
 };
 
-// The masses that one participant set.
-using Settings = std::vector<double>;
+// Of one participant, by trial.
+struct Settings {
+  std::vector<double> set_g, start_g;
+};
 
-double mean_ratio(const Settings& settings_g, double reference_g) {
-  Settings logs;
-  for (const double set_g : settings_g) logs.push_back(std::log(set_g / reference_g));
+double mean_ratio(const Settings& settings, double reference_g) {
+  std::vector<double> logs;
+  for (const double set_g : settings.set_g) logs.push_back(std::log(set_g / reference_g));
   return std::exp(*mean(logs));
+}
+
+// None for fewer than three settings, or where all started alike.
+std::optional<double> slope_on_start(const Settings& settings) {
+  constexpr std::size_t least_settings = 3;
+  const auto [least, greatest] = std::ranges::minmax(settings.start_g);
+  if (settings.set_g.size() < least_settings || least == greatest) return std::nullopt;
+  const std::vector<double> weights = slope_weights(settings.start_g);
+  return std::inner_product(weights.begin(), weights.end(), settings.set_g.begin(), 0.0);
 }
 
 double percent_of(double ratio) {
@@ -49,10 +68,13 @@ class AdjustmentSection final : public Section {
   void add(const SessionData& data) override {
     for (const Attempt& attempt : data.attempts) {
       const TrialRow& trial = attempt.trial;
-      if (attempt.completed() && trial.plan.task == "adjustment" && trial.value &&
-          trial.plan.reference_g)
-        people_[{trial.plan.condition, *trial.plan.reference_g}][data.participant()].push_back(
-            *trial.value);
+      if (!attempt.completed() || trial.plan.task != "adjustment" || !trial.value ||
+          !trial.plan.reference_g || !trial.plan.level_g)
+        continue;
+      const Compared compared{trial.plan.condition, *trial.plan.reference_g};
+      Settings& settings = people_[compared][data.participant()];
+      settings.set_g.push_back(*trial.value);
+      settings.start_g.push_back(compared.reference_g + *trial.plan.level_g);
     }
   }
 
@@ -100,7 +122,8 @@ class AdjustmentSection final : public Section {
          column(bias, Field::value, "bias_g", "bias g", 2),
          column(bias, Field::sd, "sd_g", "SD", 2)},
         "over participants, each of whom counts once; bias in percent by geometric means; spread: "
-        "standard deviation of a participant's settings",
+        "standard deviation of a participant's settings; start effect: slope of settings on the "
+        "first mass, of three settings or more",
         TablePlace::results,
         "adjustment[]"};
     add_interval(over_people.columns, bias, "low_g", "high_g", 2);
@@ -108,6 +131,9 @@ class AdjustmentSection final : public Section {
     add_interval(over_people.columns, bias_percent, "low_percent", "high_percent");
     over_people.columns.push_back(column(spread, Field::value, "spread_g", "spread g", 2));
     add_interval(over_people.columns, spread, "spread_low_g", "spread_high_g", 2);
+    over_people.columns.push_back(
+        column(start_effect, Field::value, "start_effect", "start effect", 2));
+    add_interval(over_people.columns, start_effect, "start_effect_low", "start_effect_high", 2);
     over_people.columns.push_back(column(spread, Field::why, "why", "no spread: why"));
 
     EstimateTable people{
@@ -119,6 +145,7 @@ class AdjustmentSection final : public Section {
          column(bias, Field::n_trials, "n_trials", "trials"),
          column(bias_percent, Field::value, "bias_percent", "bias %"),
          column(spread, Field::value, "spread_g", "spread g", 2),
+         column(start_effect, Field::value, "start_effect", "start effect", 2),
          column(spread, Field::why, "why", "no spread: why")},
         "",
         TablePlace::csv};
@@ -146,26 +173,28 @@ class AdjustmentSection final : public Section {
   Estimates own_estimates() const {
     Estimates all;
     for (const auto& [compared, people] : people_)
-      for (const auto& [participant, settings_g] : people)
-        add_own(all, compared, participant, settings_g);
+      for (const auto& [participant, settings] : people)
+        add_own(all, compared, participant, settings);
     return all;
   }
 
   static void add_own(Estimates& all, const Compared& compared, const std::string& participant,
-                      const Settings& settings_g) {
+                      const Settings& settings) {
     const auto put = [&](const Measure& measure, std::optional<double> value) -> StudyEstimate& {
       StudyEstimate& own = all.emplace_back(
           StudyEstimate{&measure, "adjustment", compared.condition, compared.reference_g});
       own.participant = participant;
       own.value = value;
       own.n = 1;
-      own.n_trials = static_cast<int>(settings_g.size());
+      own.n_trials = static_cast<int>(settings.set_g.size());
       return own;
     };
-    put(bias, *mean(settings_g) - compared.reference_g);
-    put(bias_percent, mean_ratio(settings_g, compared.reference_g));
-    const auto sd = sample_sd(settings_g);
+    put(bias, *mean(settings.set_g) - compared.reference_g);
+    put(bias_percent, mean_ratio(settings, compared.reference_g));
+    const auto sd = sample_sd(settings.set_g);
     put(spread, sd).why = sd ? "" : "a single setting";
+    const auto slope = slope_on_start(settings);
+    put(start_effect, slope).why = slope ? "" : "fewer than three settings, or equal starts";
   }
 
   std::map<Compared, std::map<std::string, Settings>> people_;

@@ -77,6 +77,23 @@ TEST(AdjustmentSpread, IsTheMeanStandardDeviationOfEachPerson) {
   EXPECT_EQ(heavy.why, "2 of 2 participants have none: a single setting");
 }
 
+TEST(AdjustmentStartEffect, IsTheMeanSlopeOfSettingsOnFirstMasses) {
+  SessionData one = session(1, "one"), other = session(2, "other"), alike = session(3, "alike");
+  // By hand: .3; and (-50 * 90 + 0 * 130 + 50 * 140) / (2 * 50^2) = .5.
+  for (const double start_g : {50.0, 90.0, 210.0})
+    add_adjustment(one, 100, 100 + 0.3 * (start_g - 100)).trial.plan.level_g = start_g - 100;
+  for (const auto& [start_g, set_g] : {std::pair(50, 90), {100, 130}, {150, 140}})
+    add_adjustment(other, 100, set_g).trial.plan.level_g = start_g - 100;
+  for (const double set_g : {90, 100, 120}) add_adjustment(alike, 100, set_g);
+  const Summary summary = summarized({one, other, alike});
+  EXPECT_NEAR(*of(summary, "adjustment_start_effect", "100", "one").value, 0.3, 1e-12);
+  EXPECT_NEAR(*of(summary, "adjustment_start_effect", "100", "other").value, 0.5, 1e-12);
+  EXPECT_FALSE(of(summary, "adjustment_start_effect", "100", "alike").value);
+  const StudyEstimate all = of(summary, "adjustment_start_effect", "100");
+  EXPECT_NEAR(*all.value, 0.4, 1e-12);
+  EXPECT_EQ(all.n, 2);
+}
+
 TEST(AdjustmentReport, HasTheBiasAndItsInterval) {
   const Summary summary = summarized(two_people());
   EXPECT_THAT(readable(summary), HasSubstr("Adjustment: masses set equal to the reference"));
