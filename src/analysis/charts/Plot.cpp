@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
+#include <limits>
+#include <sstream>
 #include <vector>
 
 #include "analysis/report/Table.h"
@@ -42,7 +45,27 @@ std::vector<const PlotLayer*> layers_in_key(const std::vector<PlotPanel>& panels
   return layers;
 }
 
-std::string panel_text(const PlotPanel& panel, std::size_t index) {
+// Of a panel whose values are all the same: gnuplot prints a warning before it chooses such a
+// range. None for other panels.
+std::string range_of_one_value(const PlotPanel& panel) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const PlotLayer& layer : panel.layers) {
+    std::istringstream rows(layer.rows);
+    for (std::string row; std::getline(rows, row);) {
+      std::istringstream columns(row);
+      double x = 0, value = 0;
+      for (columns >> x; columns >> value;) {
+        least = std::min(least, value);
+        most = std::max(most, value);
+      }
+    }
+  }
+  if (least != most) return "";
+  const double half = least == 0 ? 1 : 0.01 * std::abs(least);
+  return fmt::format("set yrange [{}:{}]\n", least - half, least + half);
+}
+
+std::string panel_text(const PlotPanel& panel, std::size_t index, bool has_range) {
   std::string blocks, terms;
   for (std::size_t i = 0; i < panel.layers.size(); ++i) {
     const PlotLayer& layer = panel.layers[i];
@@ -54,11 +77,14 @@ std::string panel_text(const PlotPanel& panel, std::size_t index) {
     }
     terms += fmt::format("{}{} {} notitle", terms.empty() ? "" : ", ", data, layer.how);
   }
-  return blocks + panel.axes +
+  const std::string range =
+      has_range || panel.axes.find("yrange") != std::string::npos ? "" : range_of_one_value(panel);
+  return blocks + panel.axes + range +
          (panel.title.empty() ? "unset title\n"
                               : fmt::format("set title {} offset 0,-0.6 font ',12'\n",
                                             gnuplot_quoted(panel.title))) +
-         "plot " + (terms.empty() ? "NaN notitle" : terms) + "\nunset label\n";
+         "plot " + (terms.empty() ? "NaN notitle" : terms) + "\nunset label\n" +
+         (range.empty() ? "" : "set autoscale y\n");
 }
 
 // A plot without axes, its points outside: the key alone.
@@ -121,7 +147,7 @@ void put_script(Chart& chart, const Summary& summary, const PlotFrame& frame,
         gnuplot_place(1.0 * left_px / width_px, 1.0 * (left_px + frame.panel_width_px) / width_px,
                       y_px, y_px + frame.panel_height_px);
     chart.script += column == 0 ? frame.axes : "unset ylabel\n";
-    chart.script += panel_text(panels[i], i);
+    chart.script += panel_text(panels[i], i, frame.axes.find("yrange") != std::string::npos);
   }
   chart.script += key_text(in_key, title_px - 6 + legend_px) + "unset multiplot\n";
 }
