@@ -48,6 +48,22 @@ TEST(TextsFile, ShippedTextsNameNeitherLagNorIllusionNorMassesNorConditions) {
           EXPECT_EQ(text.find(word), std::string::npos) << language << ' ' << page << '.' << key;
 }
 
+// A line must not begin with a mark, or end with an opening one.
+TEST(TextsFile, FrenchMarksDoNotLeaveTheirWords) {
+  ScreenTexts texts = load_texts(texts_path("fr"));
+  for (const std::string name :
+       {"borg_cr10", "dissimilarity", "heavy", "nasa_tlx", "ownership", "presence"}) {
+    const std::string path = source_folder() + "/protocols/questionnaires/" + name + ".fr.toml";
+    for (const auto& [key, form] : parse_questionnaires(content_of(path), path).questionnaires)
+      for (const FormQuestion& question : form.questions)
+        texts.pages[name][key + question.key] = question.text;
+  }
+  for (const auto& [page, keys] : texts.pages)
+    for (const auto& [key, text] : keys)
+      for (const char* apart : {" ?", " !", " :", " ;", " »", "« "})
+        EXPECT_EQ(text.find(apart), std::string::npos) << page << ' ' << key << ": " << text;
+}
+
 TEST(TextsFile, EveryScreenHasItsPage) {
   const ScreenTexts texts = load_texts(texts_path("en"));
   const auto n_screens = static_cast<std::size_t>(Screen::questionnaire);  // pages of their own
