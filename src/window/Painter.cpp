@@ -162,12 +162,12 @@ void paint_notice(ImDrawList& list, const std::string& notice, bool at_top, cons
 void paint_page(ImDrawList& list, const Page& page, const Paint& paint) {
   if (paint.scene) {
     paint_scene(list, *paint.scene);
+    paint_notice(list, page.hint, true, paint);
     list.PushClipRect(corner(paint.scene->area), opposite_corner(paint.scene->area), true);
     std::vector<Rect> flags;
     for (const PlacedMark& mark : paint.marks) paint_mark(list, mark, paint, flags);
     list.PopClipRect();
     paint_notice(list, page.notice, false, paint);
-    paint_notice(list, page.hint, true, paint);
   }
   for (const TextLine& line : page.lines)
     write(list, paint, line.text, line.x, line.y, line.size_px,

@@ -2,8 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <memory>
+#include <vector>
 
 #include "base/Clock.h"
 #include "base/Error.h"
@@ -58,19 +61,53 @@ class Window : public testing::Test {
   std::unique_ptr<WindowView> view;
 };
 
-// The displayed shade in a lower corner.
-int shade_in_corner(bool left) {
+struct Rgb {
+  unsigned char red = 0, green = 0, blue = 0;
+  bool operator==(const Rgb&) const = default;
+};
+
+// What the display shows from a point, from its lower left corner, on.
+std::vector<Rgb> shown_pixels(int x, int y, int width, int height) {
   using ReadPixels = void (*)(int, int, int, int, unsigned, unsigned, void*);
   using ReadBuffer = void (*)(unsigned);
-  constexpr unsigned front = 0x0404, rgb = 0x1907, bytes = 0x1401;
+  using PixelStore = void (*)(unsigned, int);
+  constexpr unsigned front = 0x0404, rgb = 0x1907, bytes = 0x1401, pack_alignment = 0x0d05;
   const auto read_buffer = reinterpret_cast<ReadBuffer>(SDL_GL_GetProcAddress("glReadBuffer"));
   const auto read_pixels = reinterpret_cast<ReadPixels>(SDL_GL_GetProcAddress("glReadPixels"));
+  const auto pixel_store = reinterpret_cast<PixelStore>(SDL_GL_GetProcAddress("glPixelStorei"));
+  std::vector<Rgb> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  read_buffer(front);
+  pixel_store(pack_alignment, 1);
+  read_pixels(x, y, width, height, rgb, bytes, pixels.data());
+  return pixels;
+}
+
+int shade_in_corner(bool left) {
   int width = 0;
   SDL_GL_GetDrawableSize(SDL_GL_GetCurrentWindow(), &width, nullptr);
-  std::array<unsigned char, 4> pixel{};
-  read_buffer(front);
-  read_pixels(left ? 3 : width - 4, 3, 1, 1, rgb, bytes, pixel.data());
-  return pixel[1];
+  return shown_pixels(left ? 3 : width - 4, 3, 1, 1)[0].green;
+}
+
+// Labels on cubes are answers, and must be legible whatever else is over the scene.
+TEST_F(Window, HintOnDraggingCoversNoLabel) {
+  ViewSetup dragged = setup_for("fr");
+  dragged.text_size = 2;
+  dragged.dragged = std::make_shared<DraggedEffector>();
+  ScreenState state = trial_state("sorting");
+  labels_on(state) = {"lightest", "intermediate", "heaviest"};
+  const auto n_of_flags = [&] {
+    open(setup);
+    view->present(picture_of(setup), state);
+    int width = 0, height = 0;
+    SDL_GL_GetDrawableSize(SDL_GL_GetCurrentWindow(), &width, &height);
+    return std::ranges::count(shown_pixels(0, 0, width, height), Rgb{250, 250, 250});
+  };
+  setup = dragged;
+  const auto n_with_hint = n_of_flags();
+  setup.dragged.reset();
+  const auto n_without = n_of_flags();
+  EXPECT_GT(n_without, 10000);
+  EXPECT_GT(n_with_hint, 0.9 * static_cast<double>(n_without));
 }
 
 TEST_F(Window, PatchChangesOncePerFrame) {
