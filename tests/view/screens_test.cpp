@@ -143,6 +143,36 @@ TEST(Screens, ButtonTextsFitAtReadableSize) {
   });
 }
 
+// The lines of each part.
+std::vector<std::vector<std::string>> parts_of(Fixture& fixture, const ScreenState& state) {
+  fixture.screens.show(state, true);
+  std::vector<std::vector<std::string>> parts;
+  for (bool more = true; more;) {
+    parts.emplace_back();
+    for (const TextLine& line : fixture.page().lines)
+      if (line.tone == Tone::soft) parts.back().push_back(line.text);
+    const auto all = names(fixture.page());
+    more = std::ranges::find(all, "more") != all.end();
+    if (more) fixture.tap("more");
+  }
+  return parts;
+}
+
+TEST(Screens, LongTextsAreDividedBetweenParagraphs) {
+  Fixture fixture("fr", {1024, 600, 2});
+  const auto parts = parts_of(fixture, page_state(Screen::thanks));
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_TRUE(parts[1].front().starts_with("Veuillez")) << parts[1].front();
+}
+
+// Only the last part has two rows of buttons below it.
+TEST(Screens, LongConsentFillsItsPages) {
+  Fixture fixture("en", {1024, 600, 2});
+  const auto parts = parts_of(fixture, page_state(Screen::consent));
+  ASSERT_GT(parts.size(), 1U);
+  EXPECT_GE(parts.front().size(), 4U);
+}
+
 // Given labels must be legible at arm's length, because they are validated.
 TEST(Screens, GivenLabelsAreInOneLineOfUsualSize) {
   int n_notes = 0;

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "base/Clock.h"
 #include "view/screens/ScreenPages.h"
@@ -14,16 +16,43 @@ namespace heft {
 
 namespace {
 using Lines = std::vector<std::string>;
+using Fits = std::function<bool(const Lines& lines)>;
 
-// Divides lines into parts that fit; no part begins with an empty line.
-std::vector<Lines> in_parts(const PageBuilder& builder, const Lines& lines, float height_px) {
-  std::vector<Lines> parts(1);
-  for (const std::string& line : lines) {
+// Adds a paragraph to the last part, after an empty line.
+Lines joined(Lines part, const Lines& paragraph) {
+  if (!part.empty()) part.emplace_back();
+  part.insert(part.end(), paragraph.begin(), paragraph.end());
+  return part;
+}
+
+// Divides a paragraph that is longer than a part.
+void add_divided(std::vector<Lines>& parts, const Lines& paragraph, const Fits& fits) {
+  bool is_first = true;
+  for (const std::string& line : paragraph) {
     Lines longer = parts.back();
+    if (std::exchange(is_first, false) && !longer.empty()) longer.emplace_back();
     longer.push_back(line);
-    if (!parts.back().empty() && builder.height_px(longer, builder.measures.body) > height_px)
-      parts.emplace_back();
-    if (!line.empty() || !parts.back().empty()) parts.back().push_back(line);
+    if (parts.back().empty() || fits(longer))
+      parts.back() = std::move(longer);
+    else
+      parts.push_back({line});
+  }
+}
+
+// Divides lines into parts that fit, between paragraphs where possible.
+std::vector<Lines> in_parts(const Lines& lines, const Fits& fits) {
+  std::vector<Lines> parts(1);
+  for (auto from = lines.begin(); from != lines.end();) {
+    const auto to = std::find(from, lines.end(), "");
+    const Lines paragraph(from, to);
+    from = to == lines.end() ? to : to + 1;
+    if (paragraph.empty()) continue;
+    if (Lines longer = joined(parts.back(), paragraph); fits(longer))
+      parts.back() = std::move(longer);
+    else if (fits(paragraph))
+      parts.push_back(paragraph);
+    else
+      add_divided(parts, paragraph, fits);
   }
   return parts;
 }
@@ -33,27 +62,44 @@ void add_back(PageBuilder& builder) {
                      TurnPart{-1}, key_backspace);
 }
 
+// The parts of a text. The last one has `n_rows` of buttons below it, the others one.
+std::vector<Lines> parts_of(const PageBuilder& builder, const Lines& lines, float above_px,
+                            int n_rows) {
+  const auto fits_over = [&](int n) -> Fits {
+    return [&builder, room_px = builder.text_area(n).height - above_px](const Lines& some) {
+      return builder.height_px(some, builder.measures.body) <= room_px;
+    };
+  };
+  std::vector<Lines> parts = in_parts(lines, fits_over(1));
+  if (n_rows == 1) return parts;
+  const Lines last = std::move(parts.back());
+  parts.pop_back();
+  for (Lines& part : in_parts(last, fits_over(n_rows))) parts.push_back(std::move(part));
+  return parts;
+}
+
 // Writes the title and a part of the text in the middle of the space above the buttons.
 // @return whether it was the last part
-// @param n_rows of buttons below it
+// @param n_rows of buttons below the last part
 bool add_text(PageBuilder& builder, const std::string& page, int wished_part, int n_rows = 1,
               const std::string& key = "text") {
   const Measures& m = builder.measures;
-  const Rect area = builder.text_area(n_rows);
-  const Lines title = builder.typeface.wrapped(builder.text(page, "title"), m.title, area.width);
+  const float width = builder.text_area().width;
+  const Lines title = builder.typeface.wrapped(builder.text(page, "title"), m.title, width);
   const float title_px = builder.height_px(title, m.title) + m.margin;
-  const auto parts =
-      in_parts(builder, builder.typeface.wrapped(builder.text(page, key), m.body, area.width),
-               area.height - title_px);
+  const auto parts = parts_of(
+      builder, builder.typeface.wrapped(builder.text(page, key), m.body, width), title_px, n_rows);
   const int n_parts = static_cast<int>(parts.size());
   const int part = std::min(wished_part, n_parts - 1);
+  const bool is_last = part + 1 == n_parts;
   const Lines& lines = parts[static_cast<std::size_t>(part)];
+  const Rect area = builder.text_area(is_last ? n_rows : 1);
   const float free_px = area.height - title_px - builder.height_px(lines, m.body);
   const float y = n_parts > 1 ? area.y : area.y + std::max(0.f, 0.4f * free_px);
   builder.add_lines(title, area, y, m.title);
   builder.add_lines(lines, area, y + title_px, m.body, Tone::soft);
   if (part > 0) add_back(builder);
-  if (part + 1 == n_parts) return true;
+  if (is_last) return true;
   builder.add_primary("more", builder.bottom_button(0), builder.text("buttons", "more"),
                       TurnPart{1});
   return false;
@@ -184,7 +230,7 @@ void consent_screen(PageBuilder& builder) {
 }
 
 void declined_screen(PageBuilder& builder) {
-  if (!add_text(builder, "declined", builder.memory.part, 2)) return;
+  if (!add_text(builder, "declined", builder.memory.part)) return;
   builder.add_button("next", builder.bottom_button(0), builder.text("declined", "take_back"),
                      touch_of(TouchKind::next));
   builder.add_button("decline", builder.bottom_button(1), builder.text("declined", "leave"),
