@@ -77,10 +77,9 @@ ImU32 ink_of(const Control& control, bool live) {
   return control.look == Look::primary ? colors::on_accent : colors::strong;
 }
 
-void paint_words(ImDrawList& list, const Control& control, const Paint& paint, ImU32 ink) {
-  const ControlWords words = words_on(control, paint.typeface, paint.measures);
+void paint_words(ImDrawList& list, const ControlWords& words, const Paint& paint, ImU32 ink) {
   write_centered(list, paint, words.text, words.text_area, ink);
-  if (!control.note.empty())
+  if (!words.note.lines.empty())
     write_centered(list, paint, words.note, words.note_area, colors::accent);
 }
 
@@ -97,7 +96,8 @@ void paint_slider(ImDrawList& list, const Rect& area, const SliderValue& slid, f
   list.AddRect(from, to, colors::soft, thick, 0, thick / 3);
 }
 
-void paint_control(ImDrawList& list, const Control& control, const Paint& paint) {
+void paint_control(ImDrawList& list, const Control& control, const ControlWords& words,
+                   const Paint& paint) {
   const bool pressed = control.enabled && paint.is_pressed(control.name);
   const bool live = control.enabled && (pressed || paint.takes_touches(control.name));
   const float rounding = 0.14f * paint.measures.target;
@@ -106,7 +106,7 @@ void paint_control(ImDrawList& list, const Control& control, const Paint& paint)
   if (control.chosen)
     list.AddRect(from, to, colors::accent, rounding, 0, 0.045f * paint.measures.target);
   if (control.slide) return paint_slider(list, control.area, *control.slide, paint.measures.target);
-  paint_words(list, control, paint, ink_of(control, live));
+  paint_words(list, words, paint, ink_of(control, live));
 }
 
 void paint_scene(ImDrawList& list, const PaintedScene& scene) {
@@ -172,7 +172,9 @@ void paint_page(ImDrawList& list, const Page& page, const Paint& paint) {
   for (const TextLine& line : page.lines)
     write(list, paint, line.text, line.x, line.y, line.size_px,
           line.tone == Tone::strong ? colors::strong : colors::soft);
-  for (const Control& control : page.controls) paint_control(list, control, paint);
+  const auto words = words_on(page.controls, paint.typeface, paint.measures);
+  for (std::size_t i = 0; i < words.size(); ++i)
+    paint_control(list, page.controls[i], words[i], paint);
   if (!paint.patch) return;
   const Rect place = place_of(*paint.patch, paint.measures);
   list.AddRectFilled(corner(place), opposite_corner(place),

@@ -143,6 +143,29 @@ TEST(Screens, ButtonTextsFitAtReadableSize) {
   });
 }
 
+// A larger answer would stand out.
+TEST(Screens, ButtonsOfOneSizeHaveLettersOfOneSize) {
+  on_every_page([](const Fixture& fixture, const Page& page) {
+    const auto words = words_on(page.controls, fixture.typeface, fixture.measures);
+    ASSERT_EQ(words.size(), page.controls.size());
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      const Control& control = page.controls[i];
+      for (const std::string& line : words[i].text.lines)
+        EXPECT_LE(fixture.typeface.width_px(line, words[i].text.size_px), words[i].text_area.width)
+            << line;
+      for (std::size_t j = 0; j < i; ++j) {
+        const Control& other = page.controls[j];
+        if (!control.note.empty() || !other.note.empty() || control.text.empty() ||
+            other.text.empty() || std::abs(control.area.width - other.area.width) > 0.1f ||
+            std::abs(control.area.height - other.area.height) > 0.1f)
+          continue;
+        EXPECT_EQ(words[i].text.size_px, words[j].text.size_px)
+            << control.text << " and " << other.text;
+      }
+    }
+  });
+}
+
 // The lines of each part.
 std::vector<std::vector<std::string>> parts_of(Fixture& fixture, const ScreenState& state) {
   fixture.screens.show(state, true);

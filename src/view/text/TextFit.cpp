@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tasks/Task.h"
 #include "view/screens/Screens.h"
@@ -150,6 +151,27 @@ ControlWords words_on(const Control& control, const Typeface& typeface, const Me
   words.text = typeface.fitted(control.text, measures.body, inside.width, inside.height,
                                measures.least_px(measures.body));
   return words;
+}
+
+std::vector<ControlWords> words_on(const std::vector<Control>& controls, const Typeface& typeface,
+                                   const Measures& measures) {
+  std::vector<ControlWords> all;
+  for (const Control& control : controls) all.push_back(words_on(control, typeface, measures));
+  const auto are_alike = [](const ControlWords& a, const ControlWords& b) {
+    constexpr float rounding_px = 0.5f;
+    return std::abs(a.text_area.width - b.text_area.width) < rounding_px &&
+           std::abs(a.text_area.height - b.text_area.height) < rounding_px;
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    FittedText& text = all[i].text;
+    float size_px = text.size_px;
+    for (const ControlWords& other : all)
+      if (are_alike(other, all[i])) size_px = std::min(size_px, other.text.size_px);
+    if (size_px < text.size_px)
+      text = typeface.fitted(controls[i].text, size_px, all[i].text_area.width,
+                             all[i].text_area.height, size_px);
+  }
+  return all;
 }
 
 NoticeWords words_of_notice(const std::string& notice, const Rect& scene, const Typeface& typeface,

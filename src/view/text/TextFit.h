@@ -30,6 +30,11 @@ struct ControlWords {
 
 ControlWords words_on(const Control& control, const Typeface& typeface, const Measures& measures);
 
+/// Of all controls of a page, in their order. Controls of one size have letters of one size, so
+/// that no answer stands out; those with a note are apart.
+std::vector<ControlWords> words_on(const std::vector<Control>& controls, const Typeface& typeface,
+                                   const Measures& measures);
+
 /// A fitted notice or hint over the scene, and its plate.
 struct NoticeWords {
   FittedText text;
