@@ -23,12 +23,14 @@ BUTTONS = {"no_difference": (860, 245), "validate": (860, 445)}
 class Screen:
     """An X server without a display, and hands on it."""
 
-    def __init__(self):
+    def __init__(self, size=SIZE, pictures=None):
+        """@param pictures: a folder for the picture, as Xvfb's -fbdir writes it"""
         read_end, write_end = os.pipe()
         # A server that starts afresh when its last client leaves refuses who comes meanwhile.
         self.server = subprocess.Popen(
             ["Xvfb", "-noreset", "-displayfd", str(write_end),
-             "-screen", "0", f"{SIZE[0]}x{SIZE[1]}x24"],
+             "-screen", "0", f"{size[0]}x{size[1]}x24",
+             *(["-fbdir", str(pictures)] if pictures else [])],
             pass_fds=[write_end], stderr=subprocess.DEVNULL)
         os.close(write_end)
         with os.fdopen(read_end) as pipe:
