@@ -92,7 +92,7 @@ class DoubleTapper {
 
 TEST(Taps, ADoubleTapOnAnyButtonOfAnyPageDoesOneThing) {
   std::set<std::string> tapped;
-  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     SCOPED_TRACE(seed);
     TappedSession session(testing::whole_protocol(15, 6), long_texts(), DoubleTapper(seed));
     const RunEnd end = session.run();
