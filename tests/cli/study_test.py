@@ -300,7 +300,7 @@ class ListAndShow(StudyTest):
         said = self.run_heft("list", "--db", self.db)
         lines = said.stdout.splitlines()
         self.assertEqual(len(lines), 5)
-        self.assertEqual(lines[0], "all: state finished")
+        self.assertEqual(lines[0], "all: purpose simulated, state finished")
         self.assertTrue(lines[1].startswith("session"))
         self.assertIn("mass 2 of 4", lines[3])
         self.assertIn("X 9", lines[4])
