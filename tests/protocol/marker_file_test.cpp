@@ -357,7 +357,7 @@ TEST(BoardFile, ReportsAllMistakesTogether) {
   std::string all;
   for (const Mistake& mistake : mistakes_of([&] { parse_board(text, "x.toml"); }))
     all += mistake.message + '\n';
-  for (const char* part : {"tag25h8", "-1", "is missing"})
+  for (const char* part : {"tag25h8", "id is -1", "lacks \"id\""})
     EXPECT_THAT(all, ::testing::HasSubstr(part));
 }
 
