@@ -97,13 +97,15 @@ std::string exclusions(const Summary& summary) {
                                                 fmt::join(excluded, ", ")));
 }
 
+std::string people(int n, bool simulated) {
+  if (!simulated) return fmt::format("{} {}", n, n == 1 ? "person" : "people");
+  return counted(n, "simulated participant") +
+         (n == 1 ? " (a model, no person)" : " (models, no people)");
+}
+
 std::string participants(const Summary& summary) {
   const ParticipantFlow& flow = summary.flow;
-  const bool simulated = summary.data == "simulated";
-  std::string text =
-      fmt::format("{} {} took part", flow.n_started,
-                  simulated ? "simulated participants (models, no people)"
-                            : std::string(flow.n_started == 1 ? "person" : "people"));
+  std::string text = people(flow.n_started, summary.data == "simulated") + " took part";
   if (summary.data == "human and simulated") text += ", some of them models";
   text += fmt::format(" in {}.", counted(static_cast<int>(summary.sessions.size()), "session"));
   if (flow.n_declined > 0) text += fmt::format(" {} declined.", flow.n_declined);

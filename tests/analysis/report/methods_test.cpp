@@ -51,6 +51,17 @@ Summary papers_study(const std::vector<ProtocolSetting>& settings = {}) {
   return summarize({"x.db", sessions}, "");
 }
 
+TEST(Methods, CountModelsApartFromPeople) {
+  Summary summary = papers_study();
+  summary.data = "simulated";
+  for (const auto& [n, who] :
+       {std::pair(1, "1 simulated participant (a model, no person) took part"),
+        {2, "2 simulated participants (models, no people) took part"}}) {
+    summary.flow.n_started = n;
+    EXPECT_THAT(methods_of(summary).paragraphs.at(0), StartsWith(who));
+  }
+}
+
 TEST(Methods, HaveThePapersNumbers) {
   const Methods methods = methods_of(papers_study());
   EXPECT_THAT(methods.paragraphs.at(0), AllOf(StartsWith("13 people took part in 13 sessions."),
