@@ -175,6 +175,7 @@ TEST(AdjustmentBlock, KeysAreChecked) {
   EXPECT_THAT(says(block_of({100, 200, 100})), HasSubstr("reference_g has 100 g twice"));
   EXPECT_THAT(says(block_of({100}, 0)), HasSubstr("the block has 0 trials"));
   EXPECT_THAT(says(block_of({100}, 501)), HasSubstr("the block has 501 trials"));
+  EXPECT_EQ(says(block_of({100}, 500)), "");
   const auto with_starts = [&](std::vector<double> start_g) {
     Adjustment::Block block = block_of({100});
     block.start_g = std::move(start_g);

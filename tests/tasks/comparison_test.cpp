@@ -254,6 +254,21 @@ TEST(ComparisonRun, PresentsReferenceAtItsSlot) {
   EXPECT_EQ(n_catch, 8);
 }
 
+// 24 trials of staircases, 6 in each block of 7.
+TEST(ComparisonRun, HasACatchTrialInEachBlockButNoneAmongTheFirstThree) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const std::vector<TrialPlan> plans = all_plans(block_of(Sides::random), seed);
+    const auto n_catch = [&](std::ptrdiff_t first, std::ptrdiff_t n) {
+      return std::count_if(plans.begin() + first, plans.begin() + first + n,
+                           [](const TrialPlan& plan) { return plan.is_catch; });
+    };
+    EXPECT_EQ(n_catch(0, 3), 0) << seed;
+    for (const std::ptrdiff_t first : {0, 7, 14, 21})
+      EXPECT_EQ(n_catch(first, 7), 1) << seed << ", from trial " << first + 1;
+    EXPECT_EQ(n_catch(28, 4), 4) << seed;
+  }
+}
+
 TEST(ComparisonRun, ReportsLastUnfinishedStaircase) {
   const Comparison::Block block = block_of(Sides::random);
   Comparison::Run run(block, 3);

@@ -163,6 +163,8 @@ TEST(SortingKeys, AreChecked) {
   block.masses_g = {1, 2};
   block.trials = {{"A", 501}};
   EXPECT_EQ(block.check()[0].keys.front(), "trials");
+  block.trials = {{"A", 500}};
+  EXPECT_TRUE(block.check().empty());
   block.trials = {{"A", 3}, {"B", 1}};
   block.max_run = 1;
   EXPECT_EQ(block.check()[0].keys.front(), "max_run");

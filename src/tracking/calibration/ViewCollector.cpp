@@ -95,7 +95,8 @@ std::string ViewCollector::wanted() const {
 }
 
 std::string ViewCollector::tally() const {
-  std::string text = fmt::format("of {} {} were kept", counted(n_offered_, "picture"), size());
+  std::string text = fmt::format("of {} {} were kept",
+                                 counted(static_cast<std::int64_t>(n_offered_), "picture"), size());
   const auto add = [&](std::size_t n, const char* why) {
     if (n > 0) text += fmt::format("; {} {}", n, why);
   };
