@@ -195,12 +195,8 @@ std::vector<std::string> attention_sentences(const Summary& summary) {
   for (const auto sentence :
        {void_sentence, tracking_sentence, anticipatory_sentence, incident_sentence})
     sentences.push_back(sentence(summary));
-  for (const auto sentence : {threshold_sentence, staircase_sentence})
+  for (const auto sentence : {threshold_sentence, staircase_sentence, inconclusive_sentence})
     sentences.push_back(sentence(summary));
-  std::string inconclusive = inconclusive_sentence(summary);
-  if (!inconclusive.empty())
-    inconclusive.insert(inconclusive.size() - 1, ", which the report states");
-  sentences.push_back(std::move(inconclusive));
   std::erase(sentences, "");
   return sentences;
 }
