@@ -46,6 +46,11 @@ std::vector<double> slope_weights(std::span<const double> x) {
   return weights;
 }
 
+double slope(std::span<const double> x, std::span<const double> y) {
+  const std::vector<double> weights = slope_weights(x);
+  return std::inner_product(y.begin(), y.end(), weights.begin(), 0.0);
+}
+
 std::optional<Interval> student_t_interval(std::span<const double> values) {
   if (values.size() < 2) return std::nullopt;
   return student_t_interval(*mean(values), *sample_sd(values), static_cast<int>(values.size()));

@@ -37,6 +37,9 @@ std::optional<double> sample_sd(std::span<const double> values);
 /// different x.
 std::vector<double> slope_weights(std::span<const double> x);
 
+/// Of the least-squares line of y on x. At least two different x.
+double slope(std::span<const double> x, std::span<const double> y);
+
 /// mean ± t(n-1) * SD / sqrt(n); none for fewer than two values.
 std::optional<Interval> student_t_interval(std::span<const double> values);
 

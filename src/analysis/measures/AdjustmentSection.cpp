@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include "analysis/measures/Section.h"
@@ -55,8 +54,7 @@ std::optional<double> slope_on_start(const Settings& settings) {
   constexpr std::size_t least_settings = 3;
   const auto [least, greatest] = std::ranges::minmax(settings.start_g);
   if (settings.set_g.size() < least_settings || least == greatest) return std::nullopt;
-  const std::vector<double> weights = slope_weights(settings.start_g);
-  return std::inner_product(weights.begin(), weights.end(), settings.set_g.begin(), 0.0);
+  return slope(settings.start_g, settings.set_g);
 }
 
 double percent_of(double ratio) {
@@ -193,8 +191,8 @@ class AdjustmentSection final : public Section {
     put(bias_percent, mean_ratio(settings, compared.reference_g));
     const auto sd = sample_sd(settings.set_g);
     put(spread, sd).why = sd ? "" : "a single setting";
-    const auto slope = slope_on_start(settings);
-    put(start_effect, slope).why = slope ? "" : "fewer than three settings, or equal starts";
+    const auto effect = slope_on_start(settings);
+    put(start_effect, effect).why = effect ? "" : "fewer than three settings, or equal starts";
   }
 
   std::map<Compared, std::map<std::string, Settings>> people_;

@@ -5,6 +5,21 @@
 
 namespace heft {
 
+namespace {
+constexpr std::string_view deviance_meaning =
+    "of the fit from the saturated model, with one free share for each difference, where "
+    "differences were constant stimuli";
+constexpr std::string_view fit_p_meaning =
+    "share of 1000 simulated data sets of the same design, from the fitted curve and fitted again, "
+    "whose deviance is as large; small: the curve does not describe the answers";
+constexpr std::string_view rejected_meaning =
+    "number of participants whose fit has p < .05, of those whose fit can be judged; about 5 % are "
+    "expected if all curves are right";
+const std::string thresholds_are =
+    ", with 2 % lapses; mean over participants with Student's t interval, of one alone the fit's. "
+    "Fits judged: those of constant stimuli; rejected: p < .05 of the deviance";
+}  // namespace
+
 namespace forced_choice {
 namespace {
 constexpr Measure threshold{
@@ -25,17 +40,9 @@ constexpr Measure pse{
     "forced_pse", "g", "point of subjective equality",
     "difference in mass at which the comparison is chosen in half of the forced choices, from the "
     "same fit; where no comparison was lighter than its reference it is not estimated"};
-constexpr Measure deviance{
-    "forced_deviance", "", "deviance",
-    "of the fit from the saturated model, with one free share for each difference, where "
-    "differences were constant stimuli"};
-constexpr Measure fit_p{
-    "forced_fit_p", "", "p of the fit",
-    "share of 1000 simulated data sets of the same design, from the fitted curve and fitted again, "
-    "whose deviance is as large; small: the curve does not describe the answers"};
-constexpr Measure rejected{"forced_fits_rejected", "", "fits rejected",
-                           "number of participants whose fit has p < .05, of those whose fit can "
-                           "be judged; about 5 % are expected if all curves are right"};
+constexpr Measure deviance{"forced_deviance", "", "deviance", deviance_meaning};
+constexpr Measure fit_p{"forced_fit_p", "", "p of the fit", fit_p_meaning};
+constexpr Measure rejected{"forced_fits_rejected", "", "fits rejected", rejected_meaning};
 constexpr Measure chosen{"forced_chosen", "%", "the comparison",
                          "share of forced choices at a difference in which the comparison was "
                          "chosen, over participants"};
@@ -68,10 +75,7 @@ const TwoAnswerTask task{
     .name = "forced_choice",
     .finding = "Forced choice",
     .thresholds_title = "Forced choices: 75 % threshold and point of subjective equality",
-    .thresholds_note =
-        "cumulative normal fitted to each participant, with 2 % lapses; mean over participants "
-        "with Student's t interval, of one alone the fit's. Fits judged: those of constant "
-        "stimuli; rejected: p < .05 of the deviance",
+    .thresholds_note = "cumulative normal fitted to each participant" + thresholds_are,
     .people_title = "Each participant's 75 % threshold in forced choices",
     .n_column = "n",
     .second_column = column(pse, Field::value, "pse_g", "PSE g"),
@@ -108,17 +112,9 @@ constexpr Measure criterion{
     "same_different_criterion", "", "criterion",
     "half-width of what is answered by \"same\", in standard deviations of the perceived "
     "difference, from the same fit"};
-constexpr Measure deviance{
-    "same_different_deviance", "", "deviance",
-    "of the fit from the saturated model, with one free share for each difference, where "
-    "differences were constant stimuli"};
-constexpr Measure fit_p{
-    "same_different_fit_p", "", "p of the fit",
-    "share of 1000 simulated data sets of the same design, from the fitted curve and fitted again, "
-    "whose deviance is as large; small: the curve does not describe the answers"};
-constexpr Measure rejected{"same_different_fits_rejected", "", "fits rejected",
-                           "number of participants whose fit has p < .05, of those whose fit can "
-                           "be judged; about 5 % are expected if all curves are right"};
+constexpr Measure deviance{"same_different_deviance", "", "deviance", deviance_meaning};
+constexpr Measure fit_p{"same_different_fit_p", "", "p of the fit", fit_p_meaning};
+constexpr Measure rejected{"same_different_fits_rejected", "", "fits rejected", rejected_meaning};
 constexpr Measure different{"same_different_different", "%", "\"different\"",
                             "share of same-different trials at a difference that were answered by "
                             "\"different\", over participants; at 0 g: false alarms"};
@@ -149,10 +145,7 @@ const TwoAnswerTask task{
     .name = "same_different",
     .finding = "Same-different",
     .thresholds_title = "Same-different comparisons: 75 % thresholds apart from the criterion",
-    .thresholds_note =
-        "differencing model fitted to each participant, with 2 % lapses; mean over participants "
-        "with Student's t interval, of one alone the fit's. Fits judged: those of constant "
-        "stimuli; rejected: p < .05 of the deviance",
+    .thresholds_note = "differencing model fitted to each participant" + thresholds_are,
     .people_title = "Each participant's 75 % threshold in same-different comparisons",
     .n_column = "n_participants",
     .second_column = column(criterion, Field::value, "criterion", "criterion SD", 2),

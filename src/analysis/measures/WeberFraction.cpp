@@ -1,7 +1,6 @@
 // Weber fractions, and how thresholds grow with the reference, of any task.
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <vector>
 
 #include "analysis/measures/Sensitivity.h"
@@ -19,8 +18,7 @@ std::optional<double> slope_of_logs(const Thresholds& thresholds) {
       y.push_back(std::log(*one->value));
     }
   if (x.size() < 2) return std::nullopt;
-  const std::vector<double> weights = slope_weights(x);
-  return std::inner_product(y.begin(), y.end(), weights.begin(), 0.0);
+  return slope(x, y);
 }
 }  // namespace
 
