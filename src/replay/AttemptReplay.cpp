@@ -9,7 +9,7 @@
 
 namespace heft {
 
-AttemptReplay::AttemptReplay(const Protocol& protocol, const AttemptCollector& attempt)
+AttemptReplay::AttemptReplay(const Protocol& protocol, const ProjectedAttempt& attempt)
     : attempt_(attempt), world_(protocol, attempt.first_plan) {}
 
 ShownFrame AttemptReplay::advance(const FrameRow& frame) {
@@ -71,7 +71,7 @@ Projection sound_fold(const LogReader& reader, const LoggedSession& session) {
   return fold;
 }
 
-std::vector<DisplayedFrame> seen_frames(const AttemptCollector& attempt,
+std::vector<DisplayedFrame> seen_frames(const ProjectedAttempt& attempt,
                                         const std::vector<FrameRow>& rows, int up_to_event) {
   std::vector<DisplayedFrame> seen;
   auto event = attempt.events.begin();

@@ -13,7 +13,7 @@ namespace heft {
 
 class AttemptReplay {
  public:
-  AttemptReplay(const Protocol& protocol, const AttemptCollector& attempt);
+  AttemptReplay(const Protocol& protocol, const ProjectedAttempt& attempt);
 
   /// Advances the world to the next logged frame.
   ShownFrame advance(const FrameRow& frame);
@@ -27,7 +27,7 @@ class AttemptReplay {
  private:
   void fold_until(int n_events);
 
-  const AttemptCollector& attempt_;
+  const ProjectedAttempt& attempt_;
   TrialWorld world_;
   std::size_t next_event_ = 0;
   int n_reshuffles_ = 0;
@@ -43,7 +43,7 @@ Projection sound_fold(const LogReader& reader, const LoggedSession& session);
 
 /// The attempt's frames up to an event of its session (counted from 0), without those hidden by a
 /// pause's page.
-std::vector<DisplayedFrame> seen_frames(const AttemptCollector& attempt,
+std::vector<DisplayedFrame> seen_frames(const ProjectedAttempt& attempt,
                                         const std::vector<FrameRow>& rows, int up_to_event);
 
 }  // namespace heft

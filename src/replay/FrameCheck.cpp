@@ -44,7 +44,7 @@ bool made_by_world(const Event& event) {
 
 }  // namespace
 
-FrameCheck::FrameCheck(const Protocol& protocol, const AttemptCollector& attempt,
+FrameCheck::FrameCheck(const Protocol& protocol, const ProjectedAttempt& attempt,
                        FrameCheckOptions options)
     : protocol_(protocol), attempt_(attempt), options_(std::move(options)) {}
 

@@ -23,7 +23,7 @@ struct FrameCheckOptions {
 
 class FrameCheck {
  public:
-  FrameCheck(const Protocol& protocol, const AttemptCollector& attempt, FrameCheckOptions options);
+  FrameCheck(const Protocol& protocol, const ProjectedAttempt& attempt, FrameCheckOptions options);
 
   /// Recomputes the attempt up to the first difference.
   /// @param frames all of the attempt's, at least one
@@ -45,7 +45,7 @@ class FrameCheck {
   void check_events(const std::vector<Event>& derived);
 
   const Protocol& protocol_;
-  const AttemptCollector& attempt_;
+  const ProjectedAttempt& attempt_;
   FrameCheckOptions options_;
   double largest_difference_m_ = 0;
 };

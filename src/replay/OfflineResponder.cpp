@@ -97,7 +97,7 @@ class Model {
 };
 
 // The attempt's actions, and the number of events before its one answer.
-std::pair<std::vector<Action>, int> logged_answer(const AttemptCollector& attempt) {
+std::pair<std::vector<Action>, int> logged_answer(const ProjectedAttempt& attempt) {
   const TaskDeclaration& task = task_named(attempt.first_plan.task);
   std::vector<Action> actions;
   for (const AttemptEvent& event : attempt.events) {
@@ -110,7 +110,7 @@ std::pair<std::vector<Action>, int> logged_answer(const AttemptCollector& attemp
 }
 
 // The logged hand's frames under another protocol's physics.
-std::vector<FrameRow> changed_rows(std::vector<FrameRow> rows, const AttemptCollector& attempt,
+std::vector<FrameRow> changed_rows(std::vector<FrameRow> rows, const ProjectedAttempt& attempt,
                                    const Protocol& protocol) {
   AttemptReplay replay(protocol, attempt);
   for (FrameRow& row : rows) {
@@ -134,12 +134,12 @@ class SessionJudge {
       models_.emplace_back(session, responder, request);
   }
 
-  void leave_out(const AttemptCollector& attempt, std::string_view why) {
+  void leave_out(const ProjectedAttempt& attempt, std::string_view why) {
     judgments_.left_out.push_back(
         {session_.row.session_id, attempt.first_plan.trial_number, std::string(why)});
   }
 
-  void judge(const AttemptCollector& attempt, const std::vector<FrameRow>& rows) {
+  void judge(const ProjectedAttempt& attempt, const std::vector<FrameRow>& rows) {
     const TrialPlan& plan = attempt.first_plan;
     const auto logged_protocol = session_.protocol_of(attempt.row);
     const Protocol& protocol = what_if_ ? *what_if_ : *logged_protocol;

@@ -139,7 +139,7 @@ void fold(Projection& projection, Engine& engine, const std::vector<LoggedEvent>
     }
     put(projection, changes, n_answers);
     if (changes.attempt_index > 0) {
-      AttemptCollector& attempt = projection.attempts[changes.attempt_index];
+      ProjectedAttempt& attempt = projection.attempts[changes.attempt_index];
       const TrialPlan presented = engine.next().plan.value_or(TrialPlan{});
       if (logged.event.as<TrialStarted>())
         attempt.first_plan = presented;

@@ -37,14 +37,14 @@ struct AttemptEvent {
   TrialPlan plan_after;  ///< as presented after this event
 };
 
-struct AttemptCollector {
+struct ProjectedAttempt {
   TrialRow row;  ///< as last projected
   TrialPlan first_plan;
   std::vector<AttemptEvent> events;  ///< after trial_started
 };
 
 struct Projection {
-  std::map<int, AttemptCollector> attempts;  ///< by attempt index
+  std::map<int, ProjectedAttempt> attempts;  ///< by attempt index
   std::map<std::string, RowText> rows;       ///< by table and key
   std::vector<SessionConfig> setups;         ///< in order; a trial's setup_index counts them from 1
   SessionState state = SessionState::running;

@@ -158,7 +158,7 @@ class Verifier {
            broken->damage.empty() ? "digest " + broken->recomputed : "a row as it was written");
   }
 
-  void compare_attempt(int index, const AttemptCollector& attempt,
+  void compare_attempt(int index, const ProjectedAttempt& attempt,
                        const std::vector<FrameRow>& frames) {
     const SessionConfig& setup = session_.setup_of(attempt.row);
     const auto protocol = session_.protocol_of(attempt.row);

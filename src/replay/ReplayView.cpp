@@ -20,7 +20,7 @@ class Show {
  public:
   Show(ArView& view, const ReplayViewOptions& showing) : view_(view), showing_(showing) {}
 
-  void attempt(const AttemptCollector& attempt, const std::vector<FrameRow>& frames) {
+  void attempt(const ProjectedAttempt& attempt, const std::vector<FrameRow>& frames) {
     const double start_s = monotonic_s();
     std::optional<AttemptReplay> what_if;
     if (showing_.what_if) what_if.emplace(*showing_.what_if, attempt);
@@ -41,7 +41,7 @@ class Show {
 
  private:
   // As many as replay_captions.
-  std::vector<std::string> captions(const AttemptCollector& attempt, double t_s) const {
+  std::vector<std::string> captions(const ProjectedAttempt& attempt, double t_s) const {
     const TrialRow& row = attempt.row;
     const char* legend = showing_.what_if
                              ? "blue: clone; violet outline: clone with the changes; gray: effector"
@@ -55,7 +55,7 @@ class Show {
   }
 
   // By slot, also after the cubes were shuffled again.
-  static std::vector<double> masses_at(const AttemptCollector& attempt, double until_s) {
+  static std::vector<double> masses_at(const ProjectedAttempt& attempt, double until_s) {
     std::vector<double> masses_g = attempt.first_plan.masses_g;
     for (const AttemptEvent& logged : attempt.events)
       if (logged.event.t_s <= until_s && logged.plan_after.n_reshuffles > 0)
@@ -64,7 +64,7 @@ class Show {
   }
 
   // The answers until then, each label once; the outcome at the end.
-  static std::string answers_until(const AttemptCollector& attempt, double until_s) {
+  static std::string answers_until(const ProjectedAttempt& attempt, double until_s) {
     std::map<int, std::string> labels;
     std::string last;
     for (const AttemptEvent& logged : attempt.events) {

@@ -31,7 +31,7 @@ struct Paths {
   CuesByMass logged, would_be;
 };
 
-void add_attempt(const AttemptCollector& attempt, const std::vector<FrameRow>& frames,
+void add_attempt(const ProjectedAttempt& attempt, const std::vector<FrameRow>& frames,
                  const Protocol& protocol, Paths& paths) {
   AttemptReplay replay(protocol, attempt);
   CueMeter logged(paths.logged), would_be(paths.would_be);

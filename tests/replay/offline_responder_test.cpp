@@ -166,7 +166,7 @@ TEST(Judging, APersonIsNoResponder) {
 }
 
 TEST(SeenFrames, EndWithTheAnswerAndLackWhatAPauseHid) {
-  AttemptCollector attempt;
+  ProjectedAttempt attempt;
   attempt.events = {{11, 0, {1.5, SessionPaused{"cat"}}, {}},
                     {12, 0, {2.5, SessionContinued{}}, {}},
                     {13, 0, {4.5, Action{"dont_know"}}, {}}};

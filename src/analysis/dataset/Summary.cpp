@@ -67,9 +67,9 @@ struct EveryoneCollector {
 };
 
 // The figures, of those who count.
-struct DataQualityCollector {
+struct IncludedCollector {
   std::set<std::string> participants;
-  std::shared_ptr<SharedFolds> shared = std::make_shared<SharedFolds>();
+  std::shared_ptr<SharedCollectors> shared = std::make_shared<SharedCollectors>();
   TracksCollector tracks;
   std::vector<std::shared_ptr<Section>> sections = all_sections();
 
@@ -96,13 +96,13 @@ struct DataQualityCollector {
 };
 
 // Who is excluded is known at the end; only where there are such, sessions are read again.
-DataQualityCollector counted_of(DataQualityCollector&& all, const EachSession& each,
-                                std::span<const ParticipantRow> participants) {
+IncludedCollector counted_of(IncludedCollector&& all, const EachSession& each,
+                             std::span<const ParticipantRow> participants) {
   if (std::ranges::none_of(participants, &ParticipantRow::excluded)) return std::move(all);
   std::set<std::string> excluded;
   for (const ParticipantRow& row : participants)
     if (row.excluded()) excluded.insert(row.participant);
-  DataQualityCollector counted;
+  IncludedCollector counted;
   each([&](const SessionData& data) { counted.add(data, !excluded.contains(data.participant())); });
   return counted;
 }
@@ -110,7 +110,7 @@ DataQualityCollector counted_of(DataQualityCollector&& all, const EachSession& e
 // @param summary with database, command and integrity  @param n_withdrawn sessions without data
 Summary summarize(Summary summary, const EachSession& each, int n_withdrawn) {
   EveryoneCollector everybody;
-  DataQualityCollector all;
+  IncludedCollector all;
   each([&](const SessionData& data) {
     everybody.add(data);
     all.add(data);

@@ -61,7 +61,7 @@ struct Hypothesis {
 };
 
 /// What several sections are made of; sessions are read once for all.
-struct SharedFolds {
+struct SharedCollectors {
   ComparisonTrials comparisons;
   StaircaseCollector staircases, judgments{"judgment"};
 };
@@ -79,7 +79,7 @@ struct Summary {
   std::optional<AnalysisPlan> plan;
   Estimates estimates;  ///< over participants, in the order of the sections
   std::vector<std::shared_ptr<const Section>> sections;  ///< which have each participant's
-  std::shared_ptr<const SharedFolds> shared = std::make_shared<SharedFolds>();
+  std::shared_ptr<const SharedCollectors> shared = std::make_shared<SharedCollectors>();
   Quality quality;
   ParticipantFlow flow;
   std::vector<SessionTracks> all_tracks;
