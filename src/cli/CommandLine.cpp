@@ -95,43 +95,34 @@ Error usage_error(const CLI::App& app, const CLI::ParseError& error) {
 
 // What a text is; options of one name have the same in all commands.
 std::string text_of(const std::string& option) {
-  static const std::map<std::string_view, std::string> texts{{"--backup", "FOLDER"},
-                                                             {"--board", "FILE"},
-                                                             {"--by", "COLUMN"},
-                                                             {"--camera", "SOURCE"},
-                                                             {"--camera-file", "FILE"},
-                                                             {"--chart", "FILE"},
-                                                             {"--db", "FILE"},
-                                                             {"--display-file", "FILE"},
-                                                             {"--effector", "FILE"},
-                                                             {"--events", "TARGET"},
-                                                             {"--figures", "FILE"},
-                                                             {"--free", "NAME=LOW..HIGH"},
-                                                             {"--guess", "RATE"},
-                                                             {"--key", "FILE"},
-                                                             {"--lapse", "RATE"},
-                                                             {"--model", "NAME[:FILE]"},
-                                                             {"--operator", "NAME"},
-                                                             {"--out", "PATH"},
-                                                             {"--participant", "ID"},
-                                                             {"--participants", "SIZES"},
-                                                             {"--person", "COLUMN"},
-                                                             {"--plan", "FILE"},
-                                                             {"--range", "LOW..HIGH"},
-                                                             {"--record-camera", "FOLDER"},
-                                                             {"--responder", "NAME[:FILE]"},
-                                                             {"--save", "FILE"},
-                                                             {"--search", "FOLDER"},
-                                                             {"--set", "KEY=VALUE"},
-                                                             {"--shard", "I/N"},
-                                                             {"--simulator", "NAME"},
-                                                             {"--stiffness", "LOW..HIGH"},
-                                                             {"--tracker", "NAME[:FILE]"},
-                                                             {"--trajectory", "FILE"},
-                                                             {"--view", "NAME[:FILE]"},
-                                                             {"--witness", "HEAD"}};
-  const auto found = texts.find(option);
-  return found == texts.end() ? "TEXT" : found->second;
+  struct Text {
+    std::string_view name;
+    std::vector<std::string_view> options;
+  };
+  static const std::vector<Text> texts{
+      {"COLUMN", {"--by", "--person"}},
+      {"FILE",
+       {"--board", "--camera-file", "--chart", "--db", "--display-file", "--effector", "--figures",
+        "--key", "--plan", "--save", "--trajectory"}},
+      {"FOLDER", {"--backup", "--record-camera", "--search"}},
+      {"HEAD", {"--witness"}},
+      {"I/N", {"--shard"}},
+      {"ID", {"--participant"}},
+      {"KEY=VALUE", {"--set"}},
+      {"LOW..HIGH", {"--range", "--stiffness"}},
+      {"NAME", {"--operator", "--simulator"}},
+      {"NAME=LOW..HIGH", {"--free"}},
+      {"NAME[:FILE]", {"--model", "--responder", "--tracker", "--view"}},
+      {"PATH", {"--out"}},
+      {"RATE", {"--guess", "--lapse"}},
+      {"SIZES", {"--participants"}},
+      {"SOURCE", {"--camera"}},
+      {"TARGET", {"--events"}},
+  };
+  for (const Text& text : texts)
+    if (std::ranges::find(text.options, option) != text.options.end())
+      return std::string(text.name);
+  return "TEXT";
 }
 
 std::string value_of(const CLI::Option& option) {

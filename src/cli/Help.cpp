@@ -31,6 +31,10 @@ namespace {
 constexpr std::size_t help_column = 28, command_column = 14;
 constexpr std::ptrdiff_t screen_lines = 24;
 
+bool parts_option_and_value(std::string_view before, std::string_view after) {
+  return before.substr(before.rfind(' ') + 1).starts_with("--") && !after.starts_with('-');
+}
+
 // An example as lines that a shell joins: broken between words, but neither within quotes nor
 // between an option and its value.
 std::string continued(std::string_view example, std::size_t width) {
@@ -40,9 +44,8 @@ std::string continued(std::string_view example, std::size_t width) {
   for (std::size_t i = 0; i < example.size(); ++i) {
     const char c = example[i];
     if (c == '\'' || c == '"') quoted = !quoted;
-    const bool follows_option = result.find(" --", result.rfind(' ')) != std::string::npos;
-    const bool is_value = follows_option && !example.substr(i + 1).starts_with('-');
-    if (c == ' ' && !quoted && !is_value && result.size() > line + 6) blank = result.size();
+    const bool is_blank = c == ' ' && !quoted && result.size() > line + 6;
+    if (is_blank && !parts_option_and_value(result, example.substr(i + 1))) blank = result.size();
     result += c;
     if (result.size() - line + 2 <= width || blank <= line) continue;
     result.replace(blank, 1, " \\\n      ");

@@ -289,8 +289,7 @@ void say_declined(const SessionResult& result, const std::string& db) {
       result.session_id, db);
 }
 
-// Always throws.
-void report_unfinished(const SessionResult& result, const std::string& db) {
+[[noreturn]] void report_unfinished(const SessionResult& result, const std::string& db) {
   say_head(result, db);
   const std::string resume =
       fmt::format("heft resume --db {} --session {}", shell_quoted(db), result.session_id);

@@ -245,38 +245,41 @@ std::string as_json(const std::vector<ModelPower>& all) {
 }
 
 namespace {
-// Blocks of gnuplot's data, $h0, $h1..., and the names of what they hold.
+// Blocks of gnuplot's data, $h0, $h1... for the letter h, and the names of what they hold.
 struct ChartData {
-  std::vector<std::string> names;
-  std::string text;
+  char letter;
+  std::vector<std::string> names = {};
+  std::string text = {};
+
+  void add(const std::string& name, const std::string& rows) {
+    text += fmt::format("${}{} << END\n{}END\n", letter, names.size(), rows);
+    names.push_back(name);
+  }
 };
 
 ChartData data_of_hypotheses(const Power& power) {
-  ChartData data;
+  ChartData data{'h'};
   for (const HypothesisPower& one : power.sizes.back().hypotheses) {
-    data.text += fmt::format("$h{} << END\n", data.names.size());
+    std::string rows;
     for (const PowerAtSize& size : power.sizes)
       if (const HypothesisPower* at = at_size(size, one.name))
-        data.text += fmt::format("{} {} {} {}\n", size.participants, 100 * share_of(*at),
-                                 100 * at->interval.low, 100 * at->interval.high);
-    data.text += "END\n";
-    data.names.push_back(one.name);
+        rows += fmt::format("{} {} {} {}\n", size.participants, 100 * share_of(*at),
+                            100 * at->interval.low, 100 * at->interval.high);
+    data.add(one.name, rows);
   }
   return data;
 }
 
-// As $f0, $f1...
 ChartData data_of_figures(const Power& power) {
-  ChartData data;
+  ChartData data{'f'};
   for (const EstimatePrecision& one : power.sizes.back().estimates) {
     if (!is_main(one) || one.printed.n_hits == 0) continue;
-    data.text += fmt::format("$f{} << END\n", data.names.size());
+    std::string rows;
     for (const PowerAtSize& size : power.sizes)
       if (const EstimatePrecision* at = at_size(size, one); at && at->printed.n_hits > 0)
-        data.text += fmt::format("{} {} {} {}\n", size.participants, at->median_value,
-                                 at->median_low, at->median_high);
-    data.text += "END\n";
-    data.names.push_back(name_of(one));
+        rows += fmt::format("{} {} {} {}\n", size.participants, at->median_value, at->median_low,
+                            at->median_high);
+    data.add(name_of(one), rows);
   }
   return data;
 }
