@@ -150,7 +150,7 @@ class Several(Integrity):
         listed = self.run_heft("list", "--db", self.db).stdout.splitlines()
         self.assertRegex(listed[0], r"^all: protocol \w+, purpose \w+, state finished$")
         self.assertLessEqual(max(map(len, listed)), 80)
-        # One that differs has a line of its own.
+        # One that differs gets its own line.
         change(self.db, "update trial set outcome = 'none' where session_id = 2")
         replayed = self.run_heft("replay", "--db", self.db, expect=5).stdout
         self.assertRegex(replayed, r"session 1: verified.*\nsession 2: DIVERGED(.*\n)+session 3: verified")

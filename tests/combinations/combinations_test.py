@@ -91,7 +91,7 @@ class Combinations(unittest.TestCase):
         return f"scripted:{self.folder / recording}" if name == "scripted" else name
 
     def each(self, check, cases):
-        """Checks all cases, several at once; every failure is told with its case."""
+        """Checks all cases, several at once; every failure is said with its case."""
         with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
             running = [(case, pool.submit(check, *case)) for case in cases]
         for case, done in running:
@@ -99,13 +99,13 @@ class Combinations(unittest.TestCase):
                 done.result()
 
     def verified(self, db, unfinished=False):
-        told = self.heft("replay", "--db", db).stdout
-        self.assertIn("verified up to event" if unfinished else "verified:", told)
-        self.assertEqual("unfinished" in told, unfinished, told)
+        said = self.heft("replay", "--db", db).stdout
+        self.assertIn("verified up to event" if unfinished else "verified:", said)
+        self.assertEqual("unfinished" in said, unfinished, said)
 
     def said_to_be_simulated(self, db):
-        told = json.loads(self.heft("analyse", "--db", db, "--mix", "--json").stdout)
-        self.assertIs(told["simulated"], True)
+        said = json.loads(self.heft("analyse", "--db", db, "--mix", "--json").stdout)
+        self.assertIs(said["simulated"], True)
 
     def asked_once(self, db):
         """The questionnaire came, and was answered or left out."""
@@ -140,9 +140,9 @@ class Combinations(unittest.TestCase):
 
     def check_pace(self, db, tracker, view):
         filmed = tracker in ("frames", "video")
-        told = query(db, "select source_rate_hz, display_rate_hz from setup")[0]
-        self.assertEqual(told[1], 15)
-        self.assertEqual(round(told[0] or 0), 30 if filmed else 0)
+        said = query(db, "select source_rate_hz, display_rate_hz from setup")[0]
+        self.assertEqual(said[1], 15)
+        self.assertEqual(round(said[0] or 0), 30 if filmed else 0)
         steps = query(db, "select trial_t_s - lag(trial_t_s) over (partition by trial_id order by "
                       "frame_id) from frame")
         steps = sorted(step for step, in steps if step is not None)
@@ -244,8 +244,8 @@ class Combinations(unittest.TestCase):
                             "(select trial_id from trial where session_id = 2)")
         log.commit()
         log.close()
-        told = self.heft("replay", "--db", db, expect=5).stdout
-        self.assertIn("sessions between 1 and 3", told)
+        said = self.heft("replay", "--db", db, expect=5).stdout
+        self.assertIn("sessions between 1 and 3", said)
 
     def test_a_simulator_of_the_studies_alone_is_verified_too(self):
         db = self.folder / "studies.db"
@@ -258,8 +258,8 @@ class Combinations(unittest.TestCase):
         for simulator in ("boxes", "bullet-stable-pd"):
             self.heft("run", self.folder / "one.toml", "--participant", simulator, "--responder",
                       "simulated", "--simulator", simulator, "--db", db)
-        told = self.heft("replay", "--db", db).stdout
-        self.assertEqual(told.count("sessions 1 to 2: verified"), 1, told)
+        said = self.heft("replay", "--db", db).stdout
+        self.assertEqual(said.count("sessions 1 to 2: verified"), 1, said)
 
     # People
 
@@ -272,8 +272,8 @@ class Combinations(unittest.TestCase):
             Answerer(screen, str(db), program).take_part(50)
             if program.poll() is None:
                 program.kill()
-            told = program.communicate()[1]
-            self.assertEqual(program.returncode, 0, told)
+            said = program.communicate()[1]
+            self.assertEqual(program.returncode, 0, said)
         finally:
             screen.close()
 
@@ -282,8 +282,8 @@ class Combinations(unittest.TestCase):
         self.answered(db, "run", self.folder / "one.toml", "--participant", "1", "--purpose",
                       "test", "--ignore-failed-checks", "--db", db, "--seed", SEED, *self.options("", tracker, "window"))
         self.verified(db)
-        told = json.loads(self.heft("analyse", "--db", db, "--json").stdout)
-        self.assertIs(told["simulated"], False)
+        said = json.loads(self.heft("analyse", "--db", db, "--json").stdout)
+        self.assertIs(said["simulated"], False)
 
     def person_after_model(self):
         db = self.interrupted("person")

@@ -68,6 +68,7 @@ class WholeSessions(unittest.TestCase):
         person.finish()
         _, talk = program.communicate(timeout=60)
         self.assertEqual(program.returncode, 0, talk)
+        self.check()
 
     def check(self):
         self.assertEqual(query(self.db, "select state from session"), [("finished",)])
@@ -83,19 +84,15 @@ class WholeSessions(unittest.TestCase):
 
     def test_on_7_inches_in_large_french_letters(self):
         self.session((1024, 600), "fr", 2)
-        self.check()
 
     def test_on_1280_x_720_pixels(self):
         self.session((1280, 720), "en", 1)
-        self.check()
 
     def test_on_1920_x_1080_pixels_in_french(self):
         self.session((1920, 1080), "fr", 1)
-        self.check()
 
     def test_on_3840_x_2160_pixels_in_large_letters(self):
         self.session((3840, 2160), "en", 2)
-        self.check()
 
 
 if __name__ == "__main__":
