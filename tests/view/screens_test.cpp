@@ -339,6 +339,25 @@ TEST(Screens, SameOrDifferentTakesOneTapAndNoCube) {
   EXPECT_FALSE(action(fixture.tap("different")).slot);
 }
 
+// The question that replaces the request to lift may have more lines or fewer.
+TEST(Screens, SceneStaysWhereItIsOnceTheRealObjectWasLifted) {
+  for (const std::string language : {"en", "fr"})
+    for (const Measures& window : windows)
+      for (const auto answers :
+           {ComparisonAnswers::heavier_or_none, ComparisonAnswers::same_different}) {
+        Fixture fixture(language, window);
+        ScreenState state = trial_state("comparison");
+        const auto scene = [&](bool was_lifted) {
+          state.offer = Comparison::Offer{answers, "brass block", was_lifted};
+          fixture.screens.show(state, true);
+          return *fixture.page().scene;
+        };
+        const Rect before = scene(false), after = scene(true);
+        EXPECT_FLOAT_EQ(before.y, after.y) << language << ' ' << window.height;
+        EXPECT_FLOAT_EQ(before.height, after.height) << language << ' ' << window.height;
+      }
+}
+
 TEST(Screens, LabelIsGivenToSelectedCubeAndRemovedBySecondTap) {
   Fixture fixture;
   ScreenState state = trial_state("sorting");

@@ -27,9 +27,10 @@ void add_same_or_different(PageBuilder& builder) {
 // First the real object is lifted, then compared: its button, then those of the answers.
 void add_comparison_with_object(PageBuilder& builder, const Comparison::Offer& offer) {
   const bool by_same = offer.answers == ComparisonAnswers::same_different;
-  add_scene(builder, offer.was_lifted ? builder.text_if_any(page, by_same ? "question_object_same"
-                                                                          : "question_object")
-                                      : builder.text_if_any(page, "lift") + ' ' + offer.object);
+  const std::string lift = builder.text_if_any(page, "lift") + ' ' + offer.object;
+  const std::string question =
+      builder.text_if_any(page, by_same ? "question_object_same" : "question_object");
+  add_scene(builder, offer.was_lifted ? question : lift, {offer.was_lifted ? lift : question});
   add_hint(builder);
   const Measures& m = builder.measures;
   const Rect column = column_of(builder);

@@ -13,14 +13,21 @@ Rect column_of(const PageBuilder& builder) {
           m.height - 2 * m.margin};
 }
 
-void add_scene(PageBuilder& builder, const std::string& above) {
+void add_scene(PageBuilder& builder, const std::string& above,
+               const std::vector<std::string>& later) {
   const Measures& m = builder.measures;
   const Rect column = column_of(builder);
   const float x = builder.left_handed ? column.right() + m.margin : m.margin;
   const float width = m.width - column.width - 3 * m.margin;
-  const FittedText words =
-      builder.typeface.fitted(above, m.body, width, 3 * m.body, m.least_px(m.body));
-  const float bottom = builder.add_lines(words.lines, {x, 0, width, 0}, m.margin, words.size_px);
+  const auto fitted = [&](const std::string& text) {
+    return builder.typeface.fitted(text, m.body, width, 3 * m.body, m.least_px(m.body));
+  };
+  const FittedText words = fitted(above);
+  float bottom = builder.add_lines(words.lines, {x, 0, width, 0}, m.margin, words.size_px);
+  for (const std::string& text : later) {
+    const FittedText other = fitted(text);
+    bottom = std::max(bottom, m.margin + builder.height_px(other.lines, other.size_px));
+  }
   const float y = bottom + m.gap;
   builder.page.scene = Rect{x, y, width, m.height - m.margin - y};
   builder.page.scene_opacity = static_cast<float>(1 - builder.state.faded.value_or(0));

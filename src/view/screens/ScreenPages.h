@@ -115,7 +115,9 @@ FillPage demonstration_screen;
 
 /// The column of controls, on the side of the tapping hand; the question is above the scene.
 Rect column_of(const PageBuilder& builder);
-void add_scene(PageBuilder& builder, const std::string& above);
+/// @param later texts that will take the place of the one above, without moving the scene
+void add_scene(PageBuilder& builder, const std::string& above,
+               const std::vector<std::string>& later = {});
 
 /// The i-th of n equal cells of a row.
 Rect cell(const Rect& row, int i, int n, float gap);
