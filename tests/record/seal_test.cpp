@@ -128,6 +128,28 @@ TEST_F(SealedLog, ChangesAreNoticed) {
   }
 }
 
+// Whichever session was withdrawn, and whether or not another one follows.
+TEST_F(SealedLog, ChangedLastIdIsNoticedAfterWithdrawals) {
+  const std::string first = "2026-02-01T10:00:00Z";
+  const auto expect_last_ids_checked = [&](const std::string& after) {
+    change("UPDATE session SET state = state");
+    EXPECT_TRUE(is_sound()) << after;
+    for (const char* table : {"event", "frame"}) {
+      change(fmt::format(
+          "UPDATE {0} SET {0}_id = {0}_id + 1 WHERE {0}_id = (SELECT max({0}_id) FROM {0})",
+          table));
+      EXPECT_FALSE(is_sound()) << after << ": " << table;
+    }
+  };
+  for (const std::int64_t session : {3, 1}) {
+    withdraw_session(original_, session, first);
+    expect_last_ids_checked(fmt::format("withdrawal of {}", session));
+    write_session(fmt::format("P1{}", session));
+    SessionLog::reopen(original_, session == 3 ? 4 : 5).seal();
+    expect_last_ids_checked(fmt::format("a session after the withdrawal of {}", session));
+  }
+}
+
 // Without a witness it looks like a log that was copied before.
 TEST_F(SealedLog, LastPartThatIsCutIsNoticedByItsHeadOnly) {
   const std::string head = LogReader(original_).head();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "record/integrity/Digests.h"
 #include "record/schema/Binding.h"
@@ -126,21 +127,39 @@ BrokenDigest unsealed(std::int64_t session_id) {
   return broken;
 }
 
+std::int64_t last_id_in(SQLite::Database& database, const std::string& table) {
+  return database.execAndGet(fmt::format("SELECT ifnull(max({0}_id), 0) FROM {0}", table));
+}
+
+// What the session that was withdrawn last left; none in a log of a version that did not note it.
+std::optional<std::map<std::string, std::int64_t>> noted_missing_ids(SQLite::Database& database) {
+  SQLite::Statement query(database,
+                          "SELECT run_options FROM session s WHERE state = ? ORDER BY (SELECT "
+                          "max(seal_id) FROM seal l WHERE l.session_id = s.session_id) DESC");
+  query.bind(1, std::string(name_of(SessionState::withdrawn)));
+  if (!query.executeStep()) return std::map<std::string, std::int64_t>();
+  try {
+    return nlohmann::json::parse(query.getColumn(0).getString())
+        .at("missing_ids")
+        .get<std::map<std::string, std::int64_t>>();
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
 // Digests do not cover the ids of rows. Rows are numbered from 1 without gaps, except where a
 // session was withdrawn; so an id that nothing refers to, that of a table's last row, cannot be
 // changed either.
 std::optional<BrokenDigest> misnumbered(SQLite::Database& database) {
-  SQLite::Statement withdrawn(database, "SELECT 1 FROM session WHERE state = ?");
-  withdrawn.bind(1, std::string(name_of(SessionState::withdrawn)));
-  if (withdrawn.executeStep()) return std::nullopt;
-  for (const std::string table : {"event", "frame", "answer", "trial", "setup"}) {
-    SQLite::Statement query(database,
-                            fmt::format("SELECT count(*), ifnull(max({0}_id), 0) FROM {0}", table));
-    query.executeStep();
-    const std::int64_t n_rows = query.getColumn(0), last_id = query.getColumn(1);
-    if (n_rows == last_id) continue;
+  auto expected = noted_missing_ids(database);
+  if (!expected) return std::nullopt;
+  for (const auto& [table, n_missing] : missing_ids(database)) {
+    const std::int64_t excess = n_missing - (*expected)[table];
+    if (excess == 0) continue;
+    const std::int64_t last_id = last_id_in(database, table);
     BrokenDigest broken{
-        table, last_id, 0, 0, fmt::format("id {}", last_id), fmt::format("id {}", n_rows), {}, {}};
+        table, last_id, 0, 0, fmt::format("id {}", last_id), fmt::format("id {}", last_id - excess),
+        {},    {}};
     broken.row = fmt::format("the id of the last row of {}", table);
     return broken;
   }
@@ -162,6 +181,14 @@ std::vector<std::int64_t> unsealed_sessions(SQLite::Database& database) {
 
 std::vector<Seal> seals_in(SQLite::Database& database) {
   return seals(database, "ORDER BY seal_id");
+}
+
+std::map<std::string, std::int64_t> missing_ids(SQLite::Database& database) {
+  std::map<std::string, std::int64_t> missing;
+  for (const std::string table : {"event", "frame", "answer", "trial", "setup"})
+    missing[table] = last_id_in(database, table) -
+                     database.execAndGet("SELECT count(*) FROM " + table).getInt64();
+  return missing;
 }
 
 std::string seal(SQLite::Database& database, std::int64_t session_id) {

@@ -33,8 +33,12 @@ std::vector<Seal> seals_in(SQLite::Database& database);
 
 /// The first seal that does not follow from the previous one, or whose session is missing. Also
 /// sessions without a seal: only the one written last may have rows that no seal covers. And rows
-/// whose ids leave a gap, although no session was withdrawn.
+/// whose ids leave a gap that is not a withdrawn session's.
 std::optional<BrokenDigest> first_broken_seal(SQLite::Database& database);
+
+/// By table: how many ids below its last one have no row. None, unless a session was withdrawn;
+/// then as many from then on, because later rows are numbered without gaps.
+std::map<std::string, std::int64_t> missing_ids(SQLite::Database& database);
 
 /// Compares a session with its seals. The seals before a resumption cover its first rows, so it
 /// needs the digests of all rows, in order.

@@ -23,15 +23,17 @@ namespace heft {
 namespace fs = std::filesystem;
 
 namespace {
-// What is kept of the session's header.
-SessionHeader tombstone_of(const SessionHeader& header, const std::string& when_utc) {
+// What is kept of the session's header, once its rows are removed.
+SessionHeader tombstone_of(const SessionHeader& header, const std::string& when_utc,
+                           SQLite::Database& database) {
   SessionHeader kept;
   kept.protocol_name = header.protocol_name;
   kept.purpose = header.purpose;
   kept.heft_version = header.heft_version;
   kept.log_version = header.log_version;
   kept.protocol_sha256 = sha256("");
-  kept.run_options = nlohmann::json{{"withdrawn_utc", when_utc}}.dump();
+  kept.run_options =
+      nlohmann::json{{"withdrawn_utc", when_utc}, {"missing_ids", missing_ids(database)}}.dump();
   return kept;
 }
 
@@ -63,14 +65,15 @@ void write_tombstone(SQLite::Database& database, std::int64_t session_id,
   row.run_with_digest();
 }
 
-std::string withdraw(LogFile& file, std::int64_t session_id, const SessionHeader& kept) {
+std::string withdraw(LogFile& file, std::int64_t session_id, const SessionHeader& header,
+                     const std::string& when_utc) {
   SQLite::Database& database = file.database();
   // Removed pages are overwritten, not only marked as free.
   database.exec("PRAGMA secure_delete = ON");
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   seal_sessions(database);
   remove_rows(database, session_id);
-  write_tombstone(database, session_id, kept);
+  write_tombstone(database, session_id, tombstone_of(header, when_utc, database));
   std::string head = seal(database, session_id);
   transaction.commit();
   database.exec("VACUUM");
@@ -125,7 +128,7 @@ std::string withdraw_session(const std::string& db, std::int64_t session_id,
     throw Error(fmt::format("the data of session {} in {} were already withdrawn", session_id, db),
                 ExitCode::usage);
   try {
-    return withdraw(file, session_id, tombstone_of(session.header, when_utc));
+    return withdraw(file, session_id, session.header, when_utc);
   } catch (const SQLite::Exception& error) {
     throw sqlite_error(fmt::format("cannot withdraw session {} from {}", session_id, db), error,
                        &file.database());
