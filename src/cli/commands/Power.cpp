@@ -7,14 +7,19 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <thread>
 
 #include "base/Error.h"
+#include "base/files/TextFile.h"
 #include "cli/Commands.h"
 #include "cli/SessionOptions.h"
 #include "cli/console/Terminal.h"
 #include "cli/reports/Reports.h"
+#include "protocol/readers/Files.h"
+#include "protocol/study/StudyPlan.h"
 
 namespace heft::cli {
 
@@ -22,10 +27,10 @@ namespace {
 namespace fs = std::filesystem;
 
 struct PowerOptions {
-  std::string protocol, chart;
+  std::string file, chart;  // file: a protocol or a study plan
   std::vector<ResponderChoice> models;
   std::vector<ProtocolSetting> set;
-  std::vector<int> participants{8, 13, 20};
+  std::vector<int> participants;  // empty: the default
   std::string level = "surrogate";
   std::optional<std::int64_t> confirm;
   int studies = 100;
@@ -33,6 +38,28 @@ struct PowerOptions {
   std::optional<std::uint64_t> seed;
   bool json = false, tables = false;
 };
+
+// A protocol and the numbers of people that take part by it.
+struct Design {
+  std::string protocol;
+  std::vector<int> participants;
+};
+
+// Those of a study plan are its groups, those with the same protocol together.
+std::vector<Design> designs_of(const PowerOptions& options) {
+  if (recognized_kind(read_text_file(options.file), options.file) != FileKind::study)
+    return {{options.file,
+             options.participants.empty() ? std::vector{8, 13, 20} : options.participants}};
+  const StudyPlan plan = load_study(options.file);
+  std::map<std::string, int> planned;
+  for (int number = 1; number <= plan.participants; ++number)
+    ++planned[plan.groups[static_cast<std::size_t>(place_in(plan, number).group)].protocol];
+  std::vector<Design> designs;
+  for (const auto& [protocol, n] : planned)
+    designs.push_back(
+        {protocol, options.participants.empty() ? std::vector{n} : options.participants});
+  return designs;
+}
 
 // "8,13,20"
 std::vector<int> read_sizes(const std::string& text) {
@@ -70,16 +97,15 @@ class WorkFolder {
 };
 
 // The studies of one model. Of one seed they have the same people at every level.
-Power power_of_model(const PowerOptions& options, const Protocol& protocol,
-                     const ResponderChoice& model, const std::string& level,
-                     const std::vector<int>& participants, std::uint64_t seed) {
+Power power_of_model(const PowerOptions& options, const Design& design, const Protocol& protocol,
+                     const ResponderChoice& model, const std::string& level, std::uint64_t seed) {
   SessionOptions given;
   given.responder = model;
   given.tracker = Plug{level};
   given.settings = options.set;
-  given.protocol_file = options.protocol;
+  given.protocol_file = design.protocol;
   const WorkFolder folder;
-  const PowerRequest request{resolve(given, protocol, seed), participants, options.studies,
+  const PowerRequest request{resolve(given, protocol, seed), design.participants, options.studies,
                              options.jobs, folder.path()};
   ProgressBar bar(fmt::format("{} ({})", to_text(model), level));
   const auto progress = [&](double done) {
@@ -91,20 +117,27 @@ Power power_of_model(const PowerOptions& options, const Protocol& protocol,
   return std::move(*power);
 }
 
-void print_powers(const PowerOptions& options) {
-  const std::uint64_t seed = options.seed ? *options.seed : fresh_seed();
-  const Protocol protocol = load_protocol(options.protocol, options.set);
+std::vector<ModelPower> powers_of(const PowerOptions& options, const Design& design,
+                                  std::uint64_t seed) {
+  const Protocol protocol = load_protocol(design.protocol, options.set);
   std::vector<ModelPower> all;
   for (const ResponderChoice& model : options.models) {
-    all.push_back(
-        {protocol.name, to_text(model), seed, options.level,
-         power_of_model(options, protocol, model, options.level, options.participants, seed),
-         std::nullopt});
-    if (options.confirm)
-      all.back().whole = power_of_model(options, protocol, model, "hand",
-                                        {static_cast<int>(*options.confirm)}, seed)
-                             .sizes.front();
+    all.push_back({protocol.name, to_text(model), seed, options.level,
+                   power_of_model(options, design, protocol, model, options.level, seed),
+                   std::nullopt});
+    if (!options.confirm) continue;
+    const Design confirmed{design.protocol, {static_cast<int>(*options.confirm)}};
+    all.back().whole =
+        power_of_model(options, confirmed, protocol, model, "hand", seed).sizes.front();
   }
+  return all;
+}
+
+void print_powers(const PowerOptions& options, const std::vector<Design>& designs) {
+  const std::uint64_t seed = options.seed ? *options.seed : fresh_seed();
+  std::vector<ModelPower> all;
+  for (const Design& design : designs)
+    std::ranges::move(powers_of(options, design, seed), std::back_inserter(all));
   if (!options.chart.empty()) draw_power(all.front(), options.chart);
   if (options.json) return fmt::print("{}", as_json(all));
   for (const ModelPower& found : all) {
@@ -114,19 +147,22 @@ void print_powers(const PowerOptions& options) {
   if (!options.chart.empty()) print("chart: {}\n", options.chart);
 }
 
-void check(const PowerOptions& options) {
+void check(const PowerOptions& options, const std::vector<Design>& designs) {
   const auto refuse = [](const char* why) { throw Error(why, ExitCode::usage); };
   for (const ResponderChoice& model : options.models)
     if (std::holds_alternative<Person>(model))
       refuse("--model human: power comes from simulated people; expected a model");
   if (options.confirm && options.level == "hand")
     refuse("--confirm has no effect with --level hand: all studies are whole sessions");
-  if (options.confirm && !std::ranges::count(options.participants, *options.confirm))
-    refuse("--confirm: expected one of the sizes of --participants");
+  for (const Design& design : designs)
+    if (options.confirm && !std::ranges::count(design.participants, *options.confirm))
+      refuse("--confirm: expected one of the sizes of --participants");
   if (options.json && options.tables) refuse("--tables has no effect with --json");
   if (!options.chart.empty() && !options.chart.ends_with(".svg"))
     refuse("--chart: expected a file that ends in .svg");
   if (!options.chart.empty() && options.models.size() > 1) refuse("--chart shows one --model");
+  if (!options.chart.empty() && designs.size() > 1)
+    refuse("--chart shows one protocol; give a protocol instead of a plan with several");
 }
 
 }  // namespace
@@ -139,8 +175,13 @@ void add_power(Command& app) {
        "heft power protocols/recommended.toml --participants 10,20,40 --studies 200 --chart "
        "power.svg",
        "heft power protocols/jnd.toml --participants 8,13 --confirm 13",
+       "heft power study/STUDY.toml --studies 200",
        "heft power protocols/jnd.toml --model simulated:mine.toml --model coin --json"});
-  command.add_option("PROTOCOL", &options->protocol, "a protocol file").required();
+  command
+      .add_option("PROTOCOL", &options->file,
+                  "a protocol file, or a study plan: the protocols of its groups, in their own "
+                  "order of blocks")
+      .required();
   const auto read_model = [options](const std::string& text) {
     from_text(text, options->models.emplace_back());
   };
@@ -150,7 +191,8 @@ void add_power(Command& app) {
   command.add_option("--participants", ReadsText{[options](const std::string& text) {
                        options->participants = read_sizes(text);
                      }},
-                     "sizes of the study, with commas between (default: 8,13,20)");
+                     "sizes of the study, with commas between (default: 8,13,20; of a plan: "
+                     "as planned)");
   command.add_option("--studies", &options->studies, "simulated studies of each size")
       .shows_default()
       .whole_number(2, 100000);
@@ -172,8 +214,9 @@ void add_power(Command& app) {
                "change a key of the protocol, such as block.comparison.catch_fraction=0.2");
   command.does([options] {
     if (options->models.empty()) options->models.push_back(Plug{"simulated"});
-    check(*options);
-    print_powers(*options);
+    const auto designs = designs_of(*options);
+    check(*options, designs);
+    print_powers(*options, designs);
   });
 }
 

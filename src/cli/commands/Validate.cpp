@@ -99,6 +99,8 @@ std::string assumed_text(const Protocol& protocol, const TrialsByTask& trials) {
   return text;
 }
 
+constexpr const char* power_hint = "\n  what a study can find: heft power";
+
 std::string described(const Protocol& protocol, std::vector<std::string>& cautions) {
   constexpr int participants = 6;
   TrialsByTask trials = expected_trials(protocol);
@@ -114,7 +116,7 @@ std::string described(const Protocol& protocol, std::vector<std::string>& cautio
                   counted(std::lround(total_of(trials)), "trial"), simulated,
                   expected_minutes(protocol, trials), assumed_text(protocol, trials));
   if (protocol.simulator.name == "auto") text += "\n  " + described(resolve_auto(protocol));
-  return text + "\n  what a study can find: heft power";
+  return text + power_hint;
 }
 
 // Summary and cautions of a valid file.
@@ -162,7 +164,7 @@ std::string described(const StudyPlan& plan) {
                           escaped_line(one.protocol),
                           blocks.empty() ? "" : ": " + escaped_line(heft::described(blocks)));
     }
-  return text;
+  return text + power_hint;
 }
 
 std::vector<std::string> cautions_of(const StudyPlan& plan) {

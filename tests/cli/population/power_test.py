@@ -59,6 +59,21 @@ class Power(SessionTest):
         whole = json.loads(self.run_heft(*SHORT, "--level", "hand", "--json").stdout)
         self.assertEqual(whole["models"][0]["sizes"][1], sizes[2])
 
+    def test_a_plan_is_its_protocols_at_the_planned_sizes(self):
+        plan = self.folder / "STUDY.toml"
+        plan.write_text("\n".join([
+            'study = "two protocols"', "participants = 6", "seed = 1",
+            *(f'[[group]]\nname = "{name}"\nprotocol = "{PROTOCOLS / file}"'
+              for name, file in (("a", "quick.toml"), ("b", "jnd.toml"), ("c", "quick.toml")))]))
+        words = ["power", plan, "--studies", 2, "--seed", 7, "--json"]
+        models = json.loads(self.run_heft(*words).stdout)["models"]
+        self.assertEqual({model["protocol"]: [size["participants"] for size in model["sizes"]]
+                          for model in models}, {"jnd": [2], "quick": [4]})
+        sized = json.loads(self.run_heft(*words, "--participants", "3").stdout)["models"]
+        self.assertEqual([model["sizes"][0]["participants"] for model in sized], [3, 3])
+        chart = self.run_heft(*words[:-1], "--chart", "a.svg", expect=2).stderr
+        self.assertIn("one protocol", chart)
+
     def test_mistakes_are_refused(self):
         for words in (["--participants", "2,,4"], ["--participants", "0"], ["--participants", "x"],
                       ["--participants", "2,"], ["--studies", "1"], ["--confirm", "5"],
