@@ -74,6 +74,12 @@ def folder_of(path):
     return path.relative_to(SRC if SRC in path.parents else ROOT).parts[0]
 
 
+def sub_folder_of(path):
+    """layer/sub-folder; none for a layer's own files."""
+    parts = path.relative_to(SRC if SRC in path.parents else ROOT).parts
+    return Path(*parts[:2]) if len(parts) > 2 else None
+
+
 def may_include(path):
     folder = folder_of(path)
     return MAY_INCLUDE[folder] | ({"cli"} if path == STUDIES / "main.cpp" else set())
@@ -100,6 +106,22 @@ class Structure(unittest.TestCase):
                                         " \"results/File.h\" for those of studies")
                         self.assertTrue(other == folder or other in may_include(path),
                                         f"{folder} may not include {other}")
+
+    def test_sub_folders_do_not_include_each_other_in_circles(self):
+        """A layer's own files, such as an interface and the list of what has it, may."""
+        uses = {}
+        for path in sources():
+            own = sub_folder_of(path)
+            for quote, target in includes(path):
+                if own and quote == '"' and (SRC / target).exists():
+                    other = sub_folder_of(SRC / target)
+                    if other and other != own and other.parent == own.parent:
+                        uses.setdefault(own, {})[other] = f"{path.relative_to(ROOT)} includes {target}"
+        while leaves := [one for one in uses if not set(uses[one]) & set(uses)]:
+            for one in leaves:
+                del uses[one]
+        circles = [why for used in uses.values() for other, why in used.items() if other in uses]
+        self.assertEqual(circles, [])
 
     def test_a_name_is_one_type(self):
         """One name for two types makes a program with two definitions of it, and no error."""

@@ -13,7 +13,7 @@
 #include "base/Names.h"
 #include "protocol/Protocol.h"
 #include "results/Study.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 #include "view/scene/SceneDrawing.h"
 
 namespace heft {

@@ -9,7 +9,7 @@
 #include "base/math/Quantiles.h"
 #include "results/Study.h"
 #include "results/tracking/TrackingStudy.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 
 namespace heft {
 

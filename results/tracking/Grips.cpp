@@ -8,7 +8,7 @@
 #include "base/Pose.h"
 #include "base/Random.h"
 #include "protocol/readers/Files.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 
 namespace heft {
 

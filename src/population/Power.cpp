@@ -9,6 +9,8 @@
 #include <set>
 #include <tuple>
 
+#include "analysis/Analysis.h"
+#include "analysis/report/Hypotheses.h"
 #include "base/Parallel.h"
 #include "base/Random.h"
 #include "base/math/Quantiles.h"

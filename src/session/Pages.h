@@ -13,7 +13,7 @@
 #include "protocol/Protocol.h"
 #include "responders/Responder.h"
 #include "session/SessionControl.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 
 namespace heft {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/Clock.h"
-#include "tracking/camera/RollingShutter.h"
 #include "tracking/pose/OwnTags.h"
+#include "tracking/pose/RollingShutter.h"
 
 namespace heft {
 

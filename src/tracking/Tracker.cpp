@@ -12,8 +12,8 @@
 #include "base/math/Quantiles.h"
 #include "tracking/calibration/Response.h"
 #include "tracking/camera/ImageConversion.h"
-#include "tracking/camera/RollingShutter.h"
 #include "tracking/pose/OwnTags.h"
+#include "tracking/pose/RollingShutter.h"
 
 namespace heft {
 

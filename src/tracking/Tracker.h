@@ -11,10 +11,10 @@
 #include "base/PoseTypes.h"
 #include "tracking/BodyFinder.h"
 #include "tracking/SeenEffector.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/detection/TagDetector.h"
 #include "tracking/detection/TemporalMix.h"
 #include "tracking/pose/FocusLearner.h"
-#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "view/scene/SceneDrawing.h"
-#include "view/text/TextFit.h"
+#include "view/screens/TextFit.h"
 #include "view/text/Typeface.h"
 
 struct ImDrawList;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/Analysis.h"
 #include "analysis/report/Tables.h"
 
 namespace heft {

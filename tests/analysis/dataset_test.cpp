@@ -8,6 +8,7 @@
 #include "Figures.h"
 #include "MadeUpSessions.h"
 #include "SourceFolder.h"
+#include "analysis/Analysis.h"
 #include "base/Error.h"
 #include "base/files/TextFile.h"
 #include "record/writer/SessionLog.h"

@@ -3,6 +3,7 @@
 
 #include "Figures.h"
 #include "MadeUpSessions.h"
+#include "analysis/Analysis.h"
 #include "analysis/Folds.h"
 #include "analysis/dataset/Participants.h"
 #include "analysis/dataset/Summary.h"

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "MadeUpSessions.h"
+#include "analysis/Analysis.h"
 #include "analysis/report/Notes.h"
 #include "analysis/report/Report.h"
 

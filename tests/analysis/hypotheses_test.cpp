@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "MadeUpSessions.h"
+#include "analysis/Analysis.h"
 #include "analysis/dataset/Summary.h"
 #include "analysis/report/Notes.h"
 #include "analysis/report/Report.h"

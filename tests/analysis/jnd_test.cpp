@@ -7,10 +7,11 @@
 #include <cmath>
 
 #include "MadeUpSessions.h"
+#include "analysis/Analysis.h"
 #include "analysis/Folds.h"
 #include "analysis/dataset/Summary.h"
 #include "analysis/dataset/Tracks.h"
-#include "analysis/report/Table.h"
+#include "analysis/display/Table.h"
 #include "analysis/report/Tables.h"
 
 namespace heft {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "MadeUpSessions.h"
+#include "analysis/Analysis.h"
 #include "analysis/charts/Charts.h"
 #include "analysis/report/Tables.h"
 
@@ -30,7 +31,7 @@ Summary summary_of(double reference_g, Purpose purpose = Purpose::main) {
 }
 
 const StudyEstimate& named(const Summary& summary, std::string_view what) {
-  const auto all = published_among(summary);
+  const auto all = published_among(summary.estimates);
   return **std::ranges::find_if(all, [&](const auto* one) { return one->published->what == what; });
 }
 
@@ -76,7 +77,7 @@ TEST(PublishedBeside, ThePapersArithmeticMeanStandsBesideOurs) {
 
 TEST(PublishedBeside, IsOnlyOfWhatThePaperMeasured) {
   const Summary summary = summary_of(300);
-  for (const StudyEstimate* one : published_among(summary))
+  for (const StudyEstimate* one : published_among(summary.estimates))
     EXPECT_EQ(one->measure->unit, "%") << one->published->what;
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MadeUpSessions.h"
+#include "analysis/Analysis.h"
 #include "analysis/charts/Charts.h"
 #include "base/Error.h"
 #include "base/files/TextFile.h"

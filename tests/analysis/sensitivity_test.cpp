@@ -8,9 +8,11 @@
 #include <iostream>
 
 #include "MadeUpChoosers.h"
+#include "analysis/Analysis.h"
 #include "analysis/Folds.h"
 #include "analysis/charts/Charts.h"
 #include "analysis/dataset/Summary.h"
+#include "analysis/report/Hypotheses.h"
 #include "analysis/report/Notes.h"
 #include "inference/Coverage.h"
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "MadeUpSessions.h"
+#include "analysis/Analysis.h"
 #include "analysis/report/Report.h"
 #include "analysis/report/Tables.h"
 

@@ -1,5 +1,5 @@
 // Tables as text, CSV and HTML.
-#include "analysis/report/Table.h"
+#include "analysis/display/Table.h"
 
 #include <gmock/gmock.h>
 

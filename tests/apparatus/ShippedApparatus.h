@@ -6,7 +6,7 @@
 #include "SourceFolder.h"
 #include "protocol/readers/Files.h"
 #include "tracking/camera/Intrinsics.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 
 namespace heft {
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "SourceFolder.h"
+#include "analysis/Analysis.h"
 #include "base/Random.h"
 #include "session/Simulation.h"
 

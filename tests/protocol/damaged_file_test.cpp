@@ -10,7 +10,7 @@
 #include "protocol/Protocol.h"
 #include "protocol/readers/Files.h"
 #include "psychophysics/Interleaving.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {

@@ -5,7 +5,7 @@
 #include "EditedFile.h"
 #include "SourceFolder.h"
 #include "protocol/readers/Files.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 
 namespace heft {
 namespace {

@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "record/file/LogFile.h"
+#include "record/file/ReadOnlyDatabase.h"
 #include "record/reader/LogReader.h"
-#include "record/reader/ReadOnlyDatabase.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"
-#include "record/writer/LogFile.h"
 #include "record/writer/SessionLog.h"
 
 namespace heft::test {

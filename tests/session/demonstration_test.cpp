@@ -16,7 +16,7 @@
 #include "session/Recorded.h"
 #include "session/Runner.h"
 #include "tracking/Tracker.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 #include "view/scene/SceneDrawing.h"
 
 namespace heft {

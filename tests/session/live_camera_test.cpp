@@ -17,7 +17,7 @@
 #include "session/Runner.h"
 #include "tracking/camera/ImageFile.h"
 #include "tracking/camera/LiveCamera.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {

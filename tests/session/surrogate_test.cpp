@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "SourceFolder.h"
+#include "analysis/Analysis.h"
 #include "analysis/dataset/Dataset.h"
 #include "analysis/dataset/Summary.h"
 #include "protocol/readers/Files.h"

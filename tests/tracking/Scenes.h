@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/Random.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft {

@@ -8,8 +8,8 @@
 #include "base/files/TextFile.h"
 #include "tasks/Judgment.h"
 #include "view/screens/ScreenPages.h"
+#include "view/screens/TextFit.h"
 #include "view/screens/TouchScreen.h"
-#include "view/text/TextFit.h"
 
 namespace heft {
 namespace {

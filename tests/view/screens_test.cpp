@@ -13,7 +13,7 @@
 #include "base/Error.h"
 #include "tasks/Comparison.h"
 #include "tasks/Task.h"
-#include "view/text/TextFit.h"
+#include "view/screens/TextFit.h"
 
 namespace heft {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/PoseTypes.h"
 #include "tracking/camera/ImageConversion.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 
 namespace heft {
 

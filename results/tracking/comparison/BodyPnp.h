@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/PoseTypes.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/detection/TagDetector.h"
-#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

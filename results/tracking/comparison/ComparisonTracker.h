@@ -11,8 +11,8 @@
 
 #include "base/Image.h"
 #include "base/PoseTypes.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/detection/TagDetector.h"
-#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/charts/ChartSpec.h"
 #include "analysis/charts/Plot.h"
+#include "analysis/display/ChartSpec.h"
 
 namespace heft {
 

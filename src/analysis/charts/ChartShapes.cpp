@@ -7,7 +7,7 @@
 
 #include "analysis/charts/ChartAxis.h"
 #include "analysis/charts/Plot.h"
-#include "analysis/report/Tables.h"
+#include "analysis/display/Phrases.h"
 
 namespace heft {
 

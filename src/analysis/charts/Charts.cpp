@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "analysis/charts/Plot.h"
+#include "analysis/display/Phrases.h"
 #include "analysis/measures/Section.h"
-#include "analysis/report/Tables.h"
 
 namespace heft {
 
@@ -107,7 +107,7 @@ Chart published_chart(const Summary& summary) {
       who);
   chart.csv = "beside_published.csv";
   std::map<std::string_view, std::vector<const StudyEstimate*>> by_unit;
-  for (const StudyEstimate* one : published_among(summary)) {
+  for (const StudyEstimate* one : published_among(summary.estimates)) {
     by_unit[one->measure->unit].push_back(one);
     if (one->value) chart.n = std::max(chart.n, one->n);
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analysis/dataset/Summary.h"
+#include "analysis/display/ChartSpec.h"
 
 namespace heft {
 
@@ -20,6 +21,9 @@ struct Chart {
 
 /// In the order of the report; charts without data are left out.
 std::vector<Chart> charts_of(const Summary& summary);
+
+/// None to draw: an empty script. @param of_participants the section's
+Chart draw(const ChartSpec& spec, const Summary& summary, const Estimates& of_participants);
 
 /// Color of the paper's figures in every chart.
 inline constexpr std::string_view published_color = "#c0561f";

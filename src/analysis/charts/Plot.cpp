@@ -14,7 +14,7 @@
 #include <sstream>
 #include <vector>
 
-#include "analysis/report/Table.h"
+#include "analysis/display/Table.h"
 #include "base/Error.h"
 
 namespace heft {

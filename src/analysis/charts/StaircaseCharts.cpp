@@ -6,7 +6,7 @@
 #include <map>
 
 #include "analysis/charts/Plot.h"
-#include "analysis/report/Tables.h"
+#include "analysis/display/Phrases.h"
 
 namespace heft {
 

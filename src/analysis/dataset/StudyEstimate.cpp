@@ -117,4 +117,14 @@ StudyEstimate over_people(const std::vector<const StudyEstimate*>& people) {
   return estimate;
 }
 
+std::vector<const StudyEstimate*> published_among(const Estimates& estimates) {
+  std::vector<const StudyEstimate*> found;
+  for (const StudyEstimate& one : estimates)
+    if (one.published && std::ranges::none_of(found, [&](const StudyEstimate* other) {
+          return other->published == one.published && other->condition == one.condition;
+        }))
+      found.push_back(&one);
+  return found;
+}
+
 }  // namespace heft

@@ -107,4 +107,7 @@ StudyEstimate mean_over_people(const std::vector<const StudyEstimate*>& people, 
 /// The mean over people; of one alone that participant's estimate with its own interval.
 StudyEstimate over_people(const std::vector<const StudyEstimate*>& people);
 
+/// Those that the paper has a figure for, each figure once for each condition.
+std::vector<const StudyEstimate*> published_among(const Estimates& estimates);
+
 }  // namespace heft

@@ -1,5 +1,4 @@
-// The whole analysis of a log: options in, one Summary out. Tables, JSON, charts and the report are
-// ways to show a Summary.
+// The result of an analysis. Tables, JSON, charts and the report are ways to show a Summary.
 #pragma once
 
 #include <array>
@@ -19,16 +18,6 @@
 #include "analysis/dataset/Tracks.h"
 
 namespace heft {
-
-struct AnalysisOptions {
-  std::vector<std::string> databases;     ///< the logs' files
-  std::vector<std::int64_t> session_ids;  ///< of a single log; empty: all
-  bool mix = false;                       ///< put sessions of several purposes together
-  std::string command;                    ///< what was typed; below every chart
-  LogIntegrity integrity = {};
-  /// Check models by simulated studies, which takes longest.
-  bool check_models = true;
-};
 
 /// One session and how much of it counts.
 struct SessionSummary {
@@ -94,13 +83,5 @@ struct Summary {
 
   bool simulated() const { return data == "simulated" || data == "human and simulated"; }
 };
-
-/// Reads the logs and summarizes them together; participants of several logs are different.
-/// @throws Error as LoggedSessions, or when they hold several purposes that were not to be mixed
-Summary analyze(const AnalysisOptions& options);
-
-/// The same for data at hand.
-/// @param command as AnalysisOptions has it
-Summary summarize(const Dataset& dataset, const std::string& command);
 
 }  // namespace heft

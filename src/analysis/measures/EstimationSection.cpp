@@ -9,8 +9,8 @@
 #include <span>
 #include <tuple>
 
+#include "analysis/display/Phrases.h"
 #include "analysis/measures/Section.h"
-#include "analysis/report/Notes.h"
 
 namespace heft {
 

@@ -8,8 +8,8 @@
 #include <set>
 #include <tuple>
 
+#include "analysis/display/Phrases.h"
 #include "analysis/measures/Section.h"
-#include "analysis/report/Notes.h"
 
 namespace heft {
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "analysis/display/Phrases.h"
 #include "analysis/measures/Sensitivity.h"
-#include "analysis/report/Notes.h"
 
 namespace heft {
 

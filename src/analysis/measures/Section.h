@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/charts/ChartSpec.h"
 #include "analysis/dataset/Summary.h"
-#include "analysis/report/EstimateTable.h"
+#include "analysis/display/ChartSpec.h"
+#include "analysis/display/EstimateTable.h"
 
 namespace heft {
 

@@ -10,7 +10,7 @@
 #include "analysis/dataset/ComparisonTrials.h"
 #include "analysis/dataset/Dataset.h"
 #include "analysis/dataset/StudyEstimate.h"
-#include "analysis/report/EstimateTable.h"
+#include "analysis/display/EstimateTable.h"
 #include "inference/MixedIndecision.h"
 
 namespace heft {

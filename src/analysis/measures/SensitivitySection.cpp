@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
+#include "analysis/display/Phrases.h"
 #include "analysis/measures/Section.h"
 #include "analysis/measures/Sensitivity.h"
-#include "analysis/report/Notes.h"
 
 namespace heft {
 

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "analysis/dataset/Sorting.h"
+#include "analysis/display/Phrases.h"
 #include "analysis/measures/Section.h"
-#include "analysis/report/Notes.h"
 #include "tasks/Sorting.h"
 
 namespace heft {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "analysis/display/Phrases.h"
 #include "analysis/measures/Section.h"
-#include "analysis/report/Notes.h"
 
 namespace heft {
 

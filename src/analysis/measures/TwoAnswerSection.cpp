@@ -3,8 +3,8 @@
 #include <string_view>
 #include <tuple>
 
+#include "analysis/display/Phrases.h"
 #include "analysis/measures/Sensitivity.h"
-#include "analysis/report/Notes.h"
 #include "psychophysics/ProcedureKinds.h"
 
 namespace heft {

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <map>
 
+#include "analysis/display/Phrases.h"
+#include "analysis/display/Table.h"
 #include "analysis/measures/Sensitivity.h"
 #include "analysis/report/Notes.h"
 #include "analysis/report/Report.h"
-#include "analysis/report/Table.h"
 #include "analysis/report/Tables.h"
 #include "base/Names.h"
 #include "base/files/Printable.h"

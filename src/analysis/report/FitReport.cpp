@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "analysis/display/Table.h"
 #include "analysis/report/Report.h"
-#include "analysis/report/Table.h"
 
 namespace heft {
 

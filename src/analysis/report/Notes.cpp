@@ -4,26 +4,13 @@
 
 #include <algorithm>
 #include <iterator>
-#include <span>
 
 #include "analysis/dataset/Jnd.h"
+#include "analysis/display/Phrases.h"
 #include "tasks/Comparison.h"
 #include "tasks/Judgment.h"
 
 namespace heft {
-
-std::string some_of(const std::vector<std::string>& names, std::size_t most) {
-  const std::size_t shown = std::min(most, names.size());
-  std::string text = fmt::format("{}", fmt::join(std::span(names).first(shown), ", "));
-  if (names.size() > shown) text += fmt::format(" and {} more", names.size() - shown);
-  return text;
-}
-
-std::string simulated_note(const Summary& summary) {
-  if (summary.data == "simulated") return "All figures are of simulated responders.";
-  if (!summary.simulated()) return "";
-  return "Figures of people and of simulated responders are mixed.";
-}
 
 namespace {
 std::string unverified_note(const Summary& summary) {

@@ -18,25 +18,8 @@ std::vector<std::string> findings_of(const Summary& summary);
 /// The findings, and what limits them.
 std::vector<std::string> leading_sentences(const Summary& summary);
 
-/// "with decoupling (C2)" where the condition is one of the paper's, otherwise "in soft".
-std::string in_condition(const Summary& summary, const std::string& condition);
-
-/// Of the means of a threshold in g, by reference and condition; none: there are none.
-std::vector<std::string> threshold_findings(const Summary& summary, std::string_view task,
-                                            std::string_view measure);
-
-/// The conclusive verdicts on the paper's hypotheses about sorting, of those of its conditions that
-/// were run: "Masses are discriminated in soft."; empty: none is conclusive.
-std::string sorting_verdicts(const Summary& summary);
-
 /// Names the paper's hypotheses that were tested without a conclusion; empty: there are none.
 std::string inconclusive_sentence(const Summary& summary);
-
-/// That figures are of simulated responders; empty: they are not.
-std::string simulated_note(const Summary& summary);
-
-/// "1, 2, 3 and 40 more"
-std::string some_of(const std::vector<std::string>& names, std::size_t most = 8);
 
 /// Notes on the sessions, such as unfinished or repeated ones.
 class NotesCollector {
@@ -60,12 +43,5 @@ class NotesCollector {
   std::vector<std::string> dragged_;
   PictureCounts pictures_;
 };
-
-/// Points of percent beside chance that count as chance: the protocol's, or 10.
-double equivalence_margin_percent(const Summary& summary);
-
-/// E1-H1...E1-H3 (sorting) and E2-H1, E2-H2 (JND), stated as in the paper.
-/// Each is declared or exploratory, as the summary's plan says.
-std::vector<Hypothesis> hypotheses_of(const Summary& summary);
 
 }  // namespace heft

@@ -137,7 +137,7 @@ Table published_table(const Summary& summary) {
                {"source", ""}},
               {},
               std::string(published::about_figures)};
-  for (const StudyEstimate* one : published_among(summary)) {
+  for (const StudyEstimate* one : published_among(summary.estimates)) {
     const published::Figure& figure = *one->published;
     const auto paper = interval_of(figure);
     const auto end = [&](double Interval::*which) {
@@ -304,16 +304,6 @@ Table dictionary_table(const Summary& summary) {
   return table;
 }
 }  // namespace
-
-std::vector<const StudyEstimate*> published_among(const Summary& summary) {
-  std::vector<const StudyEstimate*> found;
-  for (const StudyEstimate& one : summary.estimates)
-    if (one.published && std::ranges::none_of(found, [&](const StudyEstimate* other) {
-          return other->published == one.published && other->condition == one.condition;
-        }))
-      found.push_back(&one);
-  return found;
-}
 
 std::vector<RecordTable> record_tables() {
   return {{TablePlace::report_first, participant_table},

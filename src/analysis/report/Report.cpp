@@ -11,6 +11,7 @@
 
 #include "analysis/charts/Charts.h"
 #include "analysis/charts/Plot.h"
+#include "analysis/display/Phrases.h"
 #include "analysis/report/Methods.h"
 #include "analysis/report/Notes.h"
 #include "analysis/report/Tables.h"

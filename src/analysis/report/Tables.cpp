@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "analysis/display/Phrases.h"
 #include "analysis/measures/Section.h"
 #include "analysis/report/Notes.h"
 #include "base/Names.h"
@@ -36,20 +37,6 @@ std::string hypotheses_text(const Summary& summary) {
   return text + '\n';
 }
 }  // namespace
-
-std::string titled(std::string_view title, const Summary& summary) {
-  return titled(title, summary.simulated() ? summary.data : "", summary);
-}
-
-std::string titled(std::string_view title, const std::string& data, const Summary& summary) {
-  const std::string marks = marked(data, summary);
-  return marks.empty() ? std::string(title) : fmt::format("{} ({})", title, marks);
-}
-
-std::string marked(const std::string& data, const Summary& summary) {
-  if (summary.integrity.is_verified) return data;
-  return data + (data.empty() ? "" : ", ") + "NOT VERIFIED";
-}
 
 std::vector<Table> tables_at(const Summary& summary, const std::vector<TablePlace>& places) {
   std::vector<Table> tables;

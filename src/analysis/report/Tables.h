@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/dataset/Summary.h"
-#include "analysis/report/Table.h"
+#include "analysis/display/Table.h"
 
 namespace heft {
 
@@ -26,14 +26,6 @@ std::string readable(const Summary& summary);
 /// "heft 0.1.0: 13 sessions of 13 participants in heft.db (simulated)"
 std::string headline(const Summary& summary);
 
-/// "Sorting" becomes "Sorting (simulated)" where it is.
-std::string titled(std::string_view title, const Summary& summary);
-/// The same for a part of the data. @param data "simulated"; empty: of persons
-std::string titled(std::string_view title, const std::string& data, const Summary& summary);
-
-/// "simulated" becomes "simulated, NOT VERIFIED" if the logs were not verified.
-std::string marked(const std::string& data, const Summary& summary);
-
 struct RecordTable {
   TablePlace place;
   Table (*make)(const Summary& summary);
@@ -44,8 +36,5 @@ std::vector<RecordTable> record_tables();
 
 /// Every trial of a session's staircases.
 Table track_table(const SessionTracks& session);
-
-/// The estimates that the paper has a figure for, each once.
-std::vector<const StudyEstimate*> published_among(const Summary& summary);
 
 }  // namespace heft

@@ -16,7 +16,7 @@
 #include "experiment/Stage.h"
 #include "protocol/Protocol.h"
 #include "responders/Responder.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 
 namespace heft {
 

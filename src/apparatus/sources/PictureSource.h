@@ -17,7 +17,7 @@
 #include "physics/Drive.h"
 #include "protocol/Protocol.h"
 #include "responders/Responder.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 
 namespace heft {
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/Analysis.h"
 #include "analysis/dataset/Summary.h"
 #include "analysis/report/Report.h"
 #include "analysis/report/Tables.h"

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "analysis/Analysis.h"
 #include "analysis/dataset/Summary.h"
 #include "analysis/report/Report.h"
 #include "analysis/report/Tables.h"

@@ -10,7 +10,7 @@
 #include "cli/Commands.h"
 #include "cli/console/Terminal.h"
 #include "protocol/readers/Files.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 
 namespace heft::cli {
 

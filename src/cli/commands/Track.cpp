@@ -15,7 +15,7 @@
 #include "tracking/Tracker.h"
 #include "tracking/camera/Camera.h"
 #include "tracking/camera/ImageFile.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/pose/PoseColumns.h"
 
 namespace heft::cli {

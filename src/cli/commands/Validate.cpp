@@ -30,7 +30,7 @@
 #include "psychophysics/Interleaving.h"
 #include "session/Session.h"
 #include "tasks/Task.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/synthetic/SyntheticCamera.h"
 
 namespace heft::cli {

@@ -11,7 +11,7 @@
 #include "engine/RunningAttempt.h"
 #include "protocol/Protocol.h"
 #include "protocol/readers/Files.h"
-#include "view/text/TextFit.h"
+#include "view/screens/TextFit.h"
 #include "view/text/Typeface.h"
 
 namespace heft::cli {

@@ -7,8 +7,8 @@
 #include "base/files/TextFile.h"
 #include "protocol/readers/Files.h"
 #include "protocol/toml/TableReader.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/detection/TagFamily.h"
-#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

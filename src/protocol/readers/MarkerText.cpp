@@ -9,7 +9,7 @@
 #include "base/Names.h"
 #include "base/files/TextFile.h"
 #include "protocol/readers/Files.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 
 namespace heft {
 

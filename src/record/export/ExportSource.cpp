@@ -11,9 +11,9 @@
 #include "base/Error.h"
 #include "base/files/TextFile.h"
 #include "record/export/Export.h"
-#include "record/reader/ReadOnlyDatabase.h"
-#include "record/writer/Failures.h"
-#include "record/writer/LogFile.h"
+#include "record/file/Failures.h"
+#include "record/file/LogFile.h"
+#include "record/file/ReadOnlyDatabase.h"
 
 namespace heft {
 

@@ -5,13 +5,11 @@
 #include <utility>
 
 #include "base/Error.h"
-#include "record/integrity/Digests.h"
 #include "record/integrity/Seals.h"
-#include "record/reader/LogReader.h"
 #include "record/schema/Cells.h"
+#include "record/schema/Digests.h"
 #include "record/schema/EventRow.h"
 #include "record/schema/RowSql.h"
-#include "record/writer/Failures.h"
 
 namespace heft {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "record/integrity/Digests.h"
 #include "record/schema/Binding.h"
+#include "record/schema/Digests.h"
 #include "record/schema/RowSql.h"
 
 namespace heft {

@@ -1,4 +1,5 @@
-// Seals: the contents of the log's sessions, chained. Private to record.
+// The check of a session's digests, and seals: the contents of the log's sessions, chained. Private
+// to record.
 //
 // A session is sealed when it ends or is left; one that was cut off, when the log is next written.
 // A seal covers the session's id, header (with its start time), state, events, frames and answers
@@ -14,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "record/reader/LogReader.h"
+#include "record/integrity/Integrity.h"
 
 namespace SQLite {
 class Database;
@@ -39,6 +40,14 @@ std::optional<BrokenDigest> first_broken_seal(SQLite::Database& database);
 /// By table: how many ids below its last one have no row. None, unless a session was withdrawn;
 /// then as many from then on, because later rows are numbered without gaps.
 std::map<std::string, std::int64_t> missing_ids(SQLite::Database& database);
+
+/// Checks the header, the answers about the participant, events and frames (the earlier row by
+/// time), and the counts of rows. Cells are read as stored, so that invalid values are found as
+/// well.
+/// @param file for messages
+/// @throws Error if there is no such session, SQLite::Exception if pages are damaged
+std::optional<BrokenDigest> first_broken_digest(SQLite::Database& database, const std::string& file,
+                                                std::int64_t session_id);
 
 /// Compares a session with its seals. The seals before a resumption cover its first rows, so it
 /// needs the digests of all rows, in order.

@@ -16,7 +16,7 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "experiment/Rows.h"
-#include "record/integrity/Digests.h"
+#include "record/schema/Digests.h"
 
 namespace heft {
 

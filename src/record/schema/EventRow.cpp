@@ -214,6 +214,22 @@ std::string text_of(const Event& event) {
 }
 
 namespace {
+std::string action_text(const Action& action) {
+  std::string text(name_of(action.kind));
+  if (action.slot) text += fmt::format(" cube {}", *action.slot);
+  if (action.label) text += fmt::format(" {}", name_of(*action.label));
+  return text;
+}
+}  // namespace
+
+std::string description(const Event& event, std::optional<int> trial_number) {
+  const auto* action = event.as<Action>();
+  const std::string text = action ? fmt::format("the answer \"{}\"", action_text(*action))
+                                  : fmt::format("the event \"{}\"", name_of(event.kind()));
+  return trial_number ? fmt::format("{} of trial {}", text, *trial_number) : text;
+}
+
+namespace {
 Json line_about(const AnnouncedEvent& about, double t_s, std::string_view kind) {
   constexpr std::size_t longest_name = 60;  // bytes; escaped at most sixfold
   Json line;

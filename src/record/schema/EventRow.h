@@ -45,6 +45,9 @@ Event event_of(const EventRow& row);
 /// An event as a line of text for people.
 std::string text_of(const Event& event);
 
+/// `the answer "label cube 2 heaviest" of trial 7`, `the event "cubes_reset" of trial 7`
+std::string description(const Event& event, std::optional<int> trial_number);
+
 /// What event_line() adds to the event.
 struct AnnouncedEvent {
   std::int64_t session_id = 0;

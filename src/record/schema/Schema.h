@@ -44,10 +44,6 @@ void add_words(SQLite::Database& database, std::string_view task);
 /// The statement that creates an object of the current log. @param object "table answer"
 const std::string& made_by(const std::string& object);
 
-/// Upgrades an older log to the current version, in one transaction. Digests do not change.
-/// @throws Error (diverged) naming an unknown object; SQLite::Exception
-void upgrade(SQLite::Database& database);
-
 /// CREATE statements of all tables and indexes, and of the views.
 std::string tables();
 extern const std::string views;

@@ -15,9 +15,9 @@
 #include "base/Clock.h"
 #include "base/Error.h"
 #include "base/files/TextFile.h"
+#include "record/file/Failures.h"
+#include "record/file/ReadOnlyDatabase.h"
 #include "record/reader/LogReader.h"
-#include "record/reader/ReadOnlyDatabase.h"
-#include "record/writer/Failures.h"
 
 namespace heft {
 

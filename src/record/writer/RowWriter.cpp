@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/Error.h"
-#include "record/integrity/Digests.h"
 #include "record/schema/Binding.h"
+#include "record/schema/Digests.h"
 #include "record/schema/EventRow.h"
 #include "record/schema/RowSql.h"
 #include "record/schema/Schema.h"

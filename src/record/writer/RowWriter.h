@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "record/integrity/Digests.h"
+#include "record/schema/Digests.h"
 #include "record/stream/EventSink.h"
 
 namespace SQLite {

@@ -9,10 +9,11 @@
 
 #include "base/Error.h"
 #include "base/files/Printable.h"
+#include "record/file/Failures.h"
+#include "record/file/LogFile.h"
 #include "record/integrity/Seals.h"
+#include "record/schema/EventRow.h"
 #include "record/schema/Schema.h"
-#include "record/writer/Failures.h"
-#include "record/writer/LogFile.h"
 #include "record/writer/RowWriter.h"
 
 namespace heft {

@@ -7,15 +7,15 @@
 
 #include "base/Error.h"
 #include "base/files/TextFile.h"
-#include "record/integrity/Digests.h"
+#include "record/file/Failures.h"
+#include "record/file/LogFile.h"
+#include "record/file/ReadOnlyDatabase.h"
 #include "record/integrity/Seals.h"
 #include "record/reader/LogReader.h"
-#include "record/reader/ReadOnlyDatabase.h"
 #include "record/schema/Binding.h"
+#include "record/schema/Digests.h"
 #include "record/schema/RowSql.h"
 #include "record/schema/Schema.h"
-#include "record/writer/Failures.h"
-#include "record/writer/LogFile.h"
 #include "record/writer/SessionLog.h"
 
 namespace heft {

@@ -11,8 +11,8 @@
 #include "base/Error.h"
 #include "base/Names.h"
 #include "tracking/calibration/CameraCalibration.h"
-#include "tracking/pose/MarkerBody.h"
-#include "tracking/pose/PlanarPose.h"
+#include "tracking/detection/MarkerBody.h"
+#include "tracking/detection/PlanarPose.h"
 
 namespace heft {
 

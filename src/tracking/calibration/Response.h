@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/Image.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/detection/ToneCurve.h"
-#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

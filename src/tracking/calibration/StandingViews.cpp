@@ -9,7 +9,7 @@
 #include "base/Names.h"
 #include "tracking/calibration/CameraCalibration.h"
 #include "tracking/calibration/OnBoardCalibration.h"
-#include "tracking/pose/PlanarPose.h"
+#include "tracking/detection/PlanarPose.h"
 
 namespace heft {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/Image.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/detection/TagDetector.h"
 #include "tracking/detection/TagFamily.h"
-#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

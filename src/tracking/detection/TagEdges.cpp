@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "tracking/pose/PlanarPose.h"
+#include "tracking/detection/PlanarPose.h"
 
 namespace heft {
 

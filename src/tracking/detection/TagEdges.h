@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "tracking/detection/EdgeFit.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/detection/TagFamily.h"
-#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tracking/pose/MarkerBody.h"
-#include "tracking/pose/PlanarPose.h"
+#include "tracking/detection/MarkerBody.h"
+#include "tracking/detection/PlanarPose.h"
 
 namespace heft {
 

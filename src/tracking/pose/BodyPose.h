@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/PoseTypes.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/detection/TagEdges.h"
-#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

@@ -10,9 +10,9 @@
 
 #include "base/Image.h"
 #include "base/math/Quantiles.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/detection/ToneCurve.h"
 #include "tracking/pose/BodyPose.h"
-#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

@@ -8,9 +8,9 @@
 #include <span>
 
 #include "base/Image.h"
-#include "tracking/camera/RollingShutter.h"
 #include "tracking/detection/ToneCurve.h"
 #include "tracking/pose/BodyPose.h"
+#include "tracking/pose/RollingShutter.h"
 #include "tracking/pose/TagModel.h"
 
 namespace heft {

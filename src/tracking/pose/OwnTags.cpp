@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "tracking/pose/PlanarPose.h"
+#include "tracking/detection/PlanarPose.h"
 
 namespace heft {
 

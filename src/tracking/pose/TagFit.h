@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/Image.h"
-#include "tracking/camera/RollingShutter.h"
+#include "tracking/pose/RollingShutter.h"
 #include "tracking/pose/TagModel.h"
 
 namespace heft {

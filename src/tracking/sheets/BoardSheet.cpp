@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/Error.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/sheets/PdfSheet.h"
 #include "tracking/sheets/Sheet.h"
 

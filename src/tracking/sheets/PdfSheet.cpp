@@ -7,7 +7,7 @@
 
 #include "base/Error.h"
 #include "base/files/TextFile.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 
 namespace heft {
 

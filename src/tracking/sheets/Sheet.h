@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/Names.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 
 namespace heft {
 

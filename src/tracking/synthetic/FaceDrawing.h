@@ -7,7 +7,7 @@
 
 #include "base/PoseTypes.h"
 #include "tracking/camera/Intrinsics.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/synthetic/AreaRaster.h"
 #include "tracking/synthetic/PrintedFaces.h"
 

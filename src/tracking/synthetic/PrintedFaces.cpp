@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "base/Error.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/detection/TagFamily.h"
-#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/synthetic/AreaRaster.h"
 
 namespace heft {

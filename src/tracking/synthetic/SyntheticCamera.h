@@ -10,7 +10,7 @@
 
 #include "base/Image.h"
 #include "base/PoseTypes.h"
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 
 namespace heft {
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "analysis/Analysis.h"
 #include "analysis/MadeUpChoosers.h"
 #include "analysis/measures/Section.h"
 #include "analysis/report/Tables.h"

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "SourceFolder.h"
+#include "analysis/Analysis.h"
 #include "analysis/MadeUpChoosers.h"
 #include "analysis/report/Report.h"
 #include "base/files/TextFile.h"

@@ -7,7 +7,7 @@
 #include "base/Pose.h"
 #include "tracking/Scenes.h"
 #include "tracking/Tracker.h"
-#include "tracking/camera/RollingShutter.h"
+#include "tracking/pose/RollingShutter.h"
 
 namespace heft {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "tracking/Scenes.h"
+#include "tracking/detection/PlanarPose.h"
 #include "tracking/pose/BodyPose.h"
-#include "tracking/pose/PlanarPose.h"
 
 namespace heft {
 namespace {

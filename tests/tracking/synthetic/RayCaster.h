@@ -12,9 +12,9 @@
 
 #include "base/Image.h"
 #include "base/Random.h"
+#include "tracking/detection/MarkerBody.h"
 #include "tracking/detection/TagEdges.h"
 #include "tracking/detection/ToneCurve.h"
-#include "tracking/pose/MarkerBody.h"
 
 namespace heft {
 

@@ -1,9 +1,12 @@
+#include "analysis/report/Hypotheses.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 
+#include "analysis/display/Phrases.h"
 #include "analysis/report/Notes.h"
 #include "inference/MixedIndecision.h"
 
@@ -324,10 +327,6 @@ std::vector<Hypothesis> judged_of_jnds(const Summary& summary) {
           judged(4, judge_proportional(summary), ratio_figures(summary), condition)};
 }
 }  // namespace
-
-double equivalence_margin_percent(const Summary& summary) {
-  return summary.plan ? summary.plan->equivalence_margin : usual_margin_percent;
-}
 
 std::vector<Hypothesis> hypotheses_of(const Summary& summary) {
   std::vector<Hypothesis> all{judged_of_control(summary), judged_of_technique(summary),

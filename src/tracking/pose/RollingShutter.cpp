@@ -1,4 +1,4 @@
-#include "tracking/camera/RollingShutter.h"
+#include "tracking/pose/RollingShutter.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "analysis/report/Table.h"
+#include "analysis/display/Table.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "analysis/dataset/Summary.h"
+#include "analysis/Analysis.h"
 
 #include <algorithm>
 #include <functional>
@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/measures/Section.h"
+#include "analysis/report/Hypotheses.h"
 #include "analysis/report/Notes.h"
 
 namespace heft {

@@ -1,4 +1,4 @@
-#include "record/writer/Failures.h"
+#include "record/file/Failures.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "record/writer/LogFile.h"
+#include "record/file/LogFile.h"
 
 namespace heft {
 
@@ -58,12 +58,6 @@ SqliteFailure described_failure(int code, int extended_code, int system_error) {
   }
 }
 
-std::string action_text(const Action& action) {
-  std::string text(name_of(action.kind));
-  if (action.slot) text += fmt::format(" cube {}", *action.slot);
-  if (action.label) text += fmt::format(" {}", name_of(*action.label));
-  return text;
-}
 }  // namespace
 
 SqliteFailure explained(const SQLite::Exception& error, const SQLite::Database* database) {
@@ -88,13 +82,6 @@ bool is_busy(const std::exception& error) {
   const auto* reason = dynamic_cast<const SQLite::Exception*>(&error);
   const int code = reason ? reason->getErrorCode() & 0xff : SQLITE_OK;
   return code == SQLITE_BUSY || code == SQLITE_LOCKED;
-}
-
-std::string description(const Event& event, std::optional<int> trial_number) {
-  const auto* action = event.as<Action>();
-  const std::string text = action ? fmt::format("the answer \"{}\"", action_text(*action))
-                                  : fmt::format("the event \"{}\"", name_of(event.kind()));
-  return trial_number ? fmt::format("{} of trial {}", text, *trial_number) : text;
 }
 
 Error write_error(const std::string& what, const LogFile& file, const std::exception& reason,

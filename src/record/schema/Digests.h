@@ -1,4 +1,4 @@
-// Digests of rows and their check. Private to record.
+// Digests of rows. Private to record.
 //
 // The header of a session has a digest. Its events form a chain of digests, and so do the frames of
 // each attempt and those outside attempts. A chain starts from participant, protocol and seed, and
@@ -20,13 +20,7 @@ class Column;
 class Database;
 }  // namespace SQLite
 
-namespace SQLite {
-class Database;
-}  // namespace SQLite
-
 namespace heft {
-
-struct BrokenDigest;
 
 /// SHA-256 over the cells `table`, `previous digest` and the row's own. A cell is a letter for its
 /// type, then the 8 bytes of a number (little-endian), or the length and bytes of a text. Can be
@@ -86,13 +80,5 @@ class DigestChain {
 
 /// Digest of a session's rows of participant_info, ordered by key, because they may be replaced.
 std::string info_digest(SQLite::Database& database, std::int64_t session_id);
-
-/// Checks the header, the answers about the participant, events and frames (the earlier row by
-/// time), and the counts of rows. Cells are read as stored, so that invalid values are found as
-/// well.
-/// @param file for messages
-/// @throws Error if there is no such session, SQLite::Exception if pages are damaged
-std::optional<BrokenDigest> first_broken_digest(SQLite::Database& database, const std::string& file,
-                                                std::int64_t session_id);
 
 }  // namespace heft

@@ -34,9 +34,6 @@ bool is_busy(const std::exception& error);
 
 class LogFile;
 
-/// `the answer "label cube 2 heaviest" of trial 7`, `the event "cubes_reset" of trial 7`
-std::string description(const Event& event, std::optional<int> trial_number);
-
 /// Error for data that could not be saved: what, where, why, and what to do.
 /// @param reason the caught SQLite::Exception, DisplacedLog, or Error for an invalid row
 /// @param next what to do afterwards, for example "start again"

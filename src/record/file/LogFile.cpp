@@ -1,4 +1,4 @@
-#include "record/writer/LogFile.h"
+#include "record/file/LogFile.h"
 
 #include <SQLiteCpp/Backup.h>
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -14,9 +14,10 @@
 #include "base/Error.h"
 #include "base/files/Printable.h"
 #include "base/files/TextFile.h"
-#include "record/reader/ReadOnlyDatabase.h"
+#include "record/file/Failures.h"
+#include "record/file/ReadOnlyDatabase.h"
+#include "record/file/Upgrade.h"
 #include "record/schema/Schema.h"
-#include "record/writer/Failures.h"
 
 namespace heft {
 

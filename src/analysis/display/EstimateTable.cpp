@@ -1,4 +1,4 @@
-#include "analysis/report/EstimateTable.h"
+#include "analysis/display/EstimateTable.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/charts/Charts.h"
 #include "analysis/dataset/StudyEstimate.h"
 
 namespace heft {
@@ -53,8 +52,5 @@ struct ChartSpec {
     return std::ranges::any_of(series, [](const ChartSeries& one) { return !one.band.empty(); });
   }
 };
-
-/// None to draw: an empty script. @param of_participants the section's
-Chart draw(const ChartSpec& spec, const Summary& summary, const Estimates& of_participants);
 
 }  // namespace heft

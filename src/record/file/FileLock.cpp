@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "base/Error.h"
-#include "record/writer/LogFile.h"
+#include "record/file/LogFile.h"
 
 namespace heft {
 

@@ -1,4 +1,4 @@
-#include "view/text/TextFit.h"
+#include "view/screens/TextFit.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
-// Upgrades logs of versions 5 to 8. Digests are taken over values, not over names of columns, so
-// they stay valid.
+#include "record/file/Upgrade.h"
+
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <sqlite3.h>

@@ -1,4 +1,4 @@
-#include "tracking/pose/MarkerBody.h"
+#include "tracking/detection/MarkerBody.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/dataset/StudyEstimate.h"
-#include "analysis/report/Table.h"
+#include "analysis/display/Table.h"
 
 namespace heft {
 

@@ -1,4 +1,4 @@
-#include "record/reader/ReadOnlyDatabase.h"
+#include "record/file/ReadOnlyDatabase.h"
 
 #include <SQLiteCpp/Backup.h>
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -10,9 +10,10 @@
 #include <utility>
 
 #include "base/Error.h"
+#include "record/file/Failures.h"
+#include "record/file/LogFile.h"
+#include "record/file/Upgrade.h"
 #include "record/schema/Schema.h"
-#include "record/writer/Failures.h"
-#include "record/writer/LogFile.h"
 
 namespace heft {
 

@@ -1,4 +1,4 @@
-#include "record/integrity/Digests.h"
+#include "record/schema/Digests.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>

@@ -1,4 +1,4 @@
-#include "tracking/pose/PlanarPose.h"
+#include "tracking/detection/PlanarPose.h"
 
 #include <opencv2/calib3d.hpp>
 
