@@ -13,9 +13,9 @@ struct AnalysisOptions {
   std::vector<std::string> databases;     ///< the logs' files
   std::vector<std::int64_t> session_ids;  ///< of a single log; empty: all
   bool mix = false;                       ///< put sessions of several purposes together
-  std::string command;                    ///< what was typed; below every chart
+  std::string command;                    ///< the command line, printed below every chart
   LogIntegrity integrity = {};
-  /// Check models by simulated studies, which takes longest.
+  /// Check models by simulated studies, the slowest step.
   bool check_models = true;
 };
 

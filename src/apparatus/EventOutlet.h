@@ -1,6 +1,6 @@
 // Events as lines of text for other recorders (EEG, motion capture, eye trackers), sent to a UDP
 // port, a named pipe or a serial line. Sending never blocks: a line that cannot be sent immediately
-// is dropped and counted, and a missing reader does no harm.
+// is dropped and counted.
 #pragma once
 
 #include <chrono>
@@ -51,13 +51,15 @@ class EventOutlet {
   /// Lines that could not be sent.
   std::int64_t n_dropped() const { return n_dropped_; }
 
-  class Channel;  ///< that lines take
+  class Channel;
 
  private:
   std::unique_ptr<Channel> channel_;
   std::int64_t n_sent_ = 0, n_dropped_ = 0;
 };
 
+/// Passes events to a log, and sends each as a line of JSON once it is on disk. Buffered events are
+/// also sent immediately, with "logged":false.
 class AnnouncingSink final : public EventSink {
  public:
   AnnouncingSink(EventSink& log, EventOutlet& outlet, std::int64_t session_id,

@@ -111,7 +111,8 @@ std::optional<std::string> without_letters(const std::string& id) {
   return std::string(number, id.end());
 }
 
-// Only ids of data: pilot-P01 and simulated-1 are no participants.
+// Whether the id is the session's without its letters, such as "01" for "P01". Main sessions only:
+// ids such as pilot-P01 and simulated-1 are compared whole.
 bool lacks_letters_of(const std::string& id, const SessionRow& session) {
   if (session.header.purpose != Purpose::main) return false;
   const auto number = without_letters(session.header.participant);

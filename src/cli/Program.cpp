@@ -61,7 +61,7 @@ int exit_code_of(const std::function<void()>& work) {
   }
 }
 
-// What a lab does next, for people at a terminal; scripts that forgot the command get an error.
+// Printed only at a terminal; a script without a command gets an error.
 void print_start_page() {
   const std::string quick =
       std::filesystem::proximate(installed_file("protocols/quick.toml")).string();
@@ -96,7 +96,6 @@ constexpr const char* how_to_get_bench =
   throw Error(fmt::format("cannot start {}: {}", program, std::strerror(errno)));
 }
 
-// With the same arguments.
 void hand_over_to_bench(const OnlyForStudies& wanted, int argc, char** argv) {
   if (bench_program().empty())
     throw Error(fmt::format("{}. {}", wanted.what(), how_to_get_bench), wanted.exit_code());
@@ -132,7 +131,7 @@ void add_commands(Command& app) {
 }
 
 int run_program(const ProgramDescription& program, int argc, char** argv) {
-  // Reports, exports, pictures and videos are about people, as logs are.
+  // Reports, exports, pictures and videos are personal data: readable by their owner only.
   umask(S_IRWXG | S_IRWXO);
   return exit_code_of([&] {
     if (program.name == "heft" && argc == 1 && isatty(STDOUT_FILENO) == 1)

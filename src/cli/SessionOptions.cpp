@@ -184,8 +184,9 @@ bool has_compliant_contacts(const Protocol& protocol) {
          });
 }
 
-// Simulators of a single stroke or with rigid contacts only; settings that over video make the
-// clone visibly displaced from the effector, which participants interpret as mass.
+// Warns of simulators that model one stroke or rigid contacts only, of settings that displace the
+// clone from the filmed effector, which participants interpret as mass, and of resets that reveal
+// it.
 std::vector<std::string> cautions(const Protocol& protocol) {
   constexpr double stroke_m_s = 0.3;
   const auto& [mode, predict_s] = protocol.simulator.input;

@@ -201,7 +201,7 @@ Enum named_or_refuse(std::string_view option, std::string_view name) {
   throw unknown_name(option, name, EnumNames<Enum>::names);
 }
 
-// None: free.
+// The fixed rate, 0 if it is not given; none: it is free.
 std::optional<double> share(const std::string& option, const std::optional<std::string>& given) {
   if (!given) return 0;
   if (*given == "free") return std::nullopt;

@@ -13,9 +13,9 @@
 
 namespace heft {
 
-/// The distribution of people, as places among the parameters. Logarithm of the sensitivity s (per
-/// unit of level) and of the criterion half-width tau (SDs of internal noise) are jointly normal;
-/// the side bias is normal around 0.
+/// Indices of the parameters of a population. Logarithms of the sensitivity s (per unit of level)
+/// and of the criterion half-width tau (SDs of internal noise) are jointly normal over people; the
+/// side bias is normal around 0.
 enum PopulationParameter : Eigen::Index {
   mean_log_sensitivity,
   mean_log_criterion,
@@ -35,9 +35,9 @@ class PersonIntegral {
   /// @param answers by signed level, in units of the largest one
   explicit PersonIntegral(std::vector<LevelAnswers> answers);
 
-  /// @param population a start for the person's own effects if they are unknown
+  /// Puts the nodes around the person's most likely effects in this population.
   void center(const Parameters& population);
-  /// Log of the integral. @param derivatives by the population; null: not needed
+  /// Log of the integral. @param derivatives by the population's parameters; null: not needed
   double log_likelihood(const Parameters& population, Derivatives* derivatives);
   /// Gradient of the last log_likelihood with derivatives.
   const Parameters& score() const { return score_; }
@@ -59,7 +59,7 @@ class PersonIntegral {
   std::vector<LevelAnswers> answers_;
   std::vector<Given> given_;
   PersonEffects mode_ = PersonEffects::Zero();
-  Eigen::Matrix3d curvature_ = Eigen::Matrix3d::Identity();  // at the mode, negative
+  Eigen::Matrix3d curvature_ = Eigen::Matrix3d::Identity();  // minus the Hessian at the mode
   bool has_mode_ = false;
   Eigen::ArrayX3d effects_;     // of each node
   Eigen::ArrayXd log_weights_;  // of each node

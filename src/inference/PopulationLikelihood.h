@@ -1,9 +1,9 @@
 // The likelihood of a population of people in the mixed indecision model (PersonIntegral.h): its
 // maximum, profile intervals, and each person's influence on the estimate.
 //
-// It is multiplied by 1 - rho^2 for the correlation rho of log s and log tau, which few people do
-// not identify: without this weak prior (LKJ with shape 2: Lewandowski, Kurowicka & Joe 2009) the
-// estimate is often -1 or 1, and thresholds of 13 people with 20 trials each came out 20 % too
+// The likelihood is multiplied by 1 - rho^2 for the correlation rho of log s and log tau, which few
+// people do not identify: without this weak prior (LKJ with shape 2: Lewandowski, Kurowicka & Joe
+// 2009) the estimate is often -1 or 1, and thresholds of 13 people with 20 trials each are 20 % too
 // small.
 #pragma once
 
@@ -23,17 +23,18 @@ class PopulationLikelihood {
   /// @param people each one's answers by signed level, in units of the largest; not empty
   explicit PopulationLikelihood(const std::vector<std::vector<LevelAnswers>>& people);
 
-  /// From several starts. @param lapse what the lapse rate is; none: free
+  /// The highest maximum from several starts. @param lapse a fixed lapse rate; none: it is free
   Maximum maximum(std::optional<double> lapse = std::nullopt);
-  /// The nearest maximum. @param held a parameter that keeps its value
+  /// The local maximum reached from `from`. @param held index of a fixed parameter; -1: none
   Maximum climb(Parameters from, Eigen::Index held = -1);
 
   struct ProfileInterval {
     std::optional<double> low, high;  ///< none: the likelihood never falls enough on that side
   };
-  /// Where the profile falls by n/2 log(1 + t^2/(n - 1)), t the 97.5 % quantile of Student's t with
-  /// n - 1 degrees of freedom: exact for n people whose effects are known, and 1.92 for many.
-  /// @param best put in its place: what is likelier, if the search finds it
+  /// Ends where the log profile likelihood has fallen by n/2 log(1 + t^2/(n - 1)), t the 97.5 %
+  /// quantile of Student's t with n - 1 degrees of freedom: exact for n people whose effects are
+  /// known, and 1.92 for many.
+  /// @param best replaced by a likelier point if the search finds one
   ProfileInterval interval(Maximum& best, Eigen::Index of);
 
   /// Whether a sensitivity of 0 lies outside the interval.

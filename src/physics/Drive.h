@@ -34,7 +34,7 @@ inline constexpr double longest_gap_s = 0.25 + 1e-6;
 class Drive {
  public:
   /// @param rate_hz lower bound of the physics rate; a picture takes ceil(dt * rate) equal steps
-  /// @throws Error for a rate that is not above 0, a negative prediction; OutsideModel for an
+  /// @throws Error for a rate that is not above 0 or a negative prediction; OutsideModel for an
   /// instability()
   Drive(std::unique_ptr<DecouplingSimulator> simulator, const Scene& scene, double rate_hz,
         const DriveInput& input = {});
@@ -69,7 +69,7 @@ class Drive {
   DriveInput input_;
   bool started_ = false;
   bool solid_ = true;
-  TargetSample last_;                      ///< as predicted
+  TargetSample last_;                      ///< with predicted pose
   std::optional<Velocity> mean_velocity_;  ///< between the last two samples; none after a jump
   WorldState state_;
 };

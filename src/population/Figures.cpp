@@ -84,9 +84,9 @@ class FigureCollector {
     return found == jnds_g_.end() ? std::nullopt : mean(found->second);
   }
 
-  std::map<std::string, std::map<std::string, int>> sortings_;  // condition, outcome
-  std::map<std::string, double> reference_of_;                  // staircase
-  std::map<double, std::vector<double>> jnds_g_;                // reference
+  std::map<std::string, std::map<std::string, int>> sortings_;  // by condition and outcome
+  std::map<std::string, double> reference_of_;                  // in g, by staircase
+  std::map<double, std::vector<double>> jnds_g_;                // by reference in g
   Tally false_alarms_, wrong_choices_, first_tries_;
   int n_choices_ = 0;  // in the trial
   double depth_mm_ = 0;

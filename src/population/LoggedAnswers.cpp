@@ -15,7 +15,7 @@
 namespace heft {
 
 namespace {
-constexpr double n_answers = 3;  // to a stimulus: as many in both tasks
+constexpr double n_answers = 3;  // possible answers to a stimulus, in both tasks
 
 LoggedAnswer answer_of(const TrialRow& trial) {
   const bool are_equal = trial.plan.level_g == 0;

@@ -1,21 +1,20 @@
-// Which populations of simulated participants give the figures that a study reports, or the answers
+// Fits populations of simulated participants to the figures that a study reports, or to the answers
 // of a log.
 //
 // Simulating every population that a search visits would take days. Instead, a bank of participants
 // is simulated once: their free parameters are spread evenly over the bounds (logarithms), the
 // others are drawn as the model's file says. A population, log-normal in the free parameters, is
 // the bank with weights: density of the population over density of the bank (importance sampling).
-// Its figures are weighted means and standard deviations, smooth in the population's parameters, so
-// that maximum likelihood and profiles take seconds, for as many studies as one likes.
+// Its figures are weighted means and standard deviations, smooth in the population's parameters.
 //
-// Likelihood: a reported mean of n participants is normal about the population's mean with variance
-// sd^2 / n, the logarithm of a reported standard deviation normal with variance (kurtosis - 1) /
-// 4n. Correlations between figures are not modeled. A population's own error (that of the bank) is
+// Likelihood of figures: a reported mean of n participants is normal about the population's mean
+// with variance sd^2 / n, the logarithm of a reported standard deviation normal with variance
+// (kurtosis - 1) / 4n. Correlations between figures are not modeled. The bank's sampling error is
 // added to both.
 //
-// Of a log's people: each one's answers have a probability in each participant of the bank, who
-// answers the same stimuli many times. The likelihood of a population is the product over people of
-// the weighted mean of that probability, so that each person is someone of the population.
+// Likelihood of a log's answers: each participant of the bank answers the same stimuli many times,
+// which gives a logged person's answers a probability. The likelihood of a population is the
+// product over people of the weighted mean of that probability.
 #pragma once
 
 #include <Eigen/Core>
@@ -120,24 +119,23 @@ struct FreeEstimate {
   bool identified() const { return low && high; }
 };
 
-/// A figure beside what the fitted population gives.
+/// A reported figure and that of the fitted population.
 struct ComparedFigure {
   ReportedFigure reported;
   Bank::Moments found;
   /// Distance in standard errors; none: not reported, or no simulated participant has the figure.
   std::optional<double> z_mean, z_sd;
-  double log_likelihood = 0;  ///< of what was reported; 0: nothing
+  double log_likelihood = 0;  ///< of the reported mean and SD; 0 if neither was reported
 };
 
 struct ResponderFit {
   std::vector<FreeEstimate> parameters;
   std::vector<ComparedFigure> figures;  ///< none: fitted to answers
-  double fitted = 0, held_out = 0;      ///< log likelihoods of what was fitted and what was not
-  int n_fitted = 0, n_held_out = 0;     ///< means and standard deviations
+  double fitted = 0, held_out = 0;      ///< log likelihoods of the fitted and the other figures
+  int n_fitted = 0, n_held_out = 0;     ///< numbers of means and standard deviations
   /// Smallest effective number of participants behind a fitted figure, or one person's answers.
   double effective = 0;
-  /// Pairs of free parameters that trade for each other: correlation of the estimates, |r| above
-  /// .8.
+  /// Pairs of free parameters whose estimates correlate with |r| above .8.
   struct Pair {
     std::string first, second;
     double correlation = 0;

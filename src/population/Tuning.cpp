@@ -19,7 +19,7 @@ namespace {
 // Comparison minus reference, as fractions of the reference.
 constexpr std::array differences{-0.8, -0.4, -0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6};
 
-// So many numbers, evenly spaced in logarithms, with that many significant digits.
+// n numbers, evenly spaced in logarithms, rounded to that many significant digits.
 std::vector<double> between(double low, double high, int n, int digits) {
   std::vector<double> all;
   for (int i = 0; i < n; ++i) {

@@ -30,7 +30,7 @@ struct TuningRequest {
 struct ThresholdAtMass {
   double mass_g = 0;
   std::optional<double> threshold_g, low_g, high_g;  ///< none: not identifiable
-  std::string why;                                   ///< it is not
+  std::string why;                                   ///< why it is not identifiable
 
   double ratio() const { return *threshold_g / mass_g; }
 };
@@ -43,20 +43,21 @@ struct TunedTechnique {
   std::optional<double> worst() const;
 };
 
-/// Springs of so many stiffnesses, evenly spaced in logarithms, with the other parameters given.
+/// Springs of n stiffnesses, evenly spaced in logarithms. @param others the other parameters
 std::vector<Technique> springs_between(double low_n_per_m, double high_n_per_m, int n,
                                        const Coupling& others);
 
-/// So many masses, evenly spaced in logarithms, both ends among them.
+/// n masses, evenly spaced in logarithms, with both ends.
 std::vector<double> masses_between(double low_g, double high_g, int n);
 
+/// Simulates the threshold of each technique at each mass.
 /// @param progress called with the fraction done, 0...1, from the calling thread
 /// @return none: stopped
 std::optional<std::vector<TunedTechnique>> thresholds_of(
     const TuningRequest& request, const std::function<void(double)>& progress,
     const std::atomic<bool>& stop);
 
-/// Null: none has a threshold at every mass.
+/// The technique with the smallest worst(); null: none has a threshold at every mass.
 const TunedTechnique* best_of(const std::vector<TunedTechnique>& all);
 
 }  // namespace heft

@@ -1,5 +1,5 @@
 // How well models predict the answers that people gave: scores of each model's answers to the same
-// trials, over people. Knows no log; a trial is its answer and the answers that each model drew.
+// trials, over people. Input is, for each trial, its answer and the answers that each model drew.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,8 @@ struct JudgedTrial {
   std::string condition;  ///< technique
   std::optional<double> reference_g, level_g;
   bool has_difference = true;  ///< between the cubes' masses
-  int n_answers = 0;           ///< that the trial offers
-  bool detects = false;        ///< they state if the cubes differ
+  int n_answers = 0;           ///< number of answers that the trial offers
+  bool detects = false;        ///< whether answers state if the cubes differ
   std::string answer;
   std::vector<std::string> labels;
   std::vector<AnswerDraws> models;
@@ -47,15 +47,16 @@ struct JudgedTrial {
 /// is never 0 (Krichevsky & Trofimov 1981).
 double probability_of(const AnswerDraws& draws, const std::string& answer, int n_answers);
 
-// Of one trial and model. Log scores are natural logarithms of probabilities: 0 is a sure
+// Scores of one trial and model. Log scores are natural logarithms of probabilities: 0 is a certain
 // prediction, -log(n_answers) is chance.
 
 double log_score(const JudgedTrial& trial, std::size_t model);
 /// Expected log score if the model itself had answered: each draw scored by the others. No model
 /// scores better on answers that are its own.
 double log_score_of_own(const JudgedTrial& trial, std::size_t model);
-/// Probability that a draw is the logged answer; and that two draws are equal.
+/// Probability that a draw is the logged answer.
 double agreement(const JudgedTrial& trial, std::size_t model);
+/// Probability that two draws are equal.
 double agreement_with_own(const JudgedTrial& trial, std::size_t model);
 
 /// A mean over people, each of whom counts once, with Student's interval.
@@ -76,18 +77,18 @@ using Confusion = std::map<std::pair<std::string, std::string>, double>;
 
 struct ModelScores {
   MeanOverPeople log_score, own_log_score, agreement, own_agreement;
-  /// Log score minus the first model's, paired by person; for that one 0.
+  /// Log score minus the first model's, paired by person; 0 for the first model.
   MeanOverPeople difference;
-  int n_people_better = 0;  ///< than with the first model
-  /// Log score minus that of the answers to the person's other trials of the same task, condition
-  /// and reference, had they been given to this one. 0: the model predicts no trial better than
-  /// another, so it is at chance. None: no person has two such trials.
+  int n_people_better = 0;  ///< people with a positive difference
+  /// Log score of a trial's own answer minus the mean log score that the answers to the person's
+  /// other trials of the same task, condition and reference would have in this trial. 0: the frames
+  /// do not help the model (chance). None: no person has two such trials.
   std::optional<MeanOverPeople> from_frames;
   std::optional<DetectionOverPeople> detection;
   Confusion answers, labels;
 };
 
-/// Scores of trials that have something in common.
+/// Scores of the trials of one group.
 struct GroupScores {
   Task task;  ///< empty: all tasks together
   std::string condition;
@@ -95,7 +96,7 @@ struct GroupScores {
   int n_trials = 0, n_people = 0;
   MeanOverPeople chance;  ///< log score of equally likely answers
   /// Log score of a model that knows only how often each answer is given to the other trials of the
-  /// same task, condition and reference. Who looks at the cubes should score better.
+  /// same task, condition and reference. A model that looks at the cubes should score better.
   MeanOverPeople shares;
   std::optional<DetectionOverPeople> person;  ///< of the logged answers
   std::vector<ModelScores> models;

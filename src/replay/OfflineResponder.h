@@ -16,8 +16,8 @@ namespace heft {
 struct JudgeRequest {
   std::vector<ResponderChoice> responders;  ///< models; at least one
   int repeats = 100;                        ///< draws of each answer, at least 2
-  /// Of the models' own streams, keyed also by the model's name, the session's number and the
-  /// draw.
+  /// Of the models' random streams, whose keys are also the model's name, the session's number and
+  /// the draw.
   std::uint64_t seed = 1;
 };
 
@@ -48,7 +48,8 @@ std::string no_answer_of(std::string_view responder);
 /// choice. A trial that one of the models does not answer is left out for all.
 ///
 /// Without a file, the model that was logged has the parameters that it had in this session. Any
-/// other draws new parameters each time, so that its probabilities are those of a person unknown.
+/// other model draws new parameters each time, so that its probabilities are those of an unknown
+/// person.
 /// @param what_if the logged hand under this protocol's physics; null: the logged frames
 /// @param progress called with the fraction of trials done, 0...1
 /// @throws Error (usage) for an unknown responder or a person; Error as sound_fold()

@@ -244,7 +244,7 @@ std::vector<std::string> faults_of_file(const LogReader& reader, const std::stri
 }
 
 namespace {
-// By several threads, each with its own reader. @return the first fault in the order of sessions
+// Verifies sessions in several threads, each with a reader. @return the fault of the first session
 std::optional<std::string> fault_of_sessions(const std::string& db,
                                              const std::vector<std::int64_t>& ids,
                                              const std::function<void(double)>& progress) {

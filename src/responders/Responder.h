@@ -1,7 +1,7 @@
 // A responder has a hand and a decision model. The hand gives the effector's pose over time; the
 // decision model receives displayed frames and answers with actions. Neither gets a mass, a force
-// or a condition, but that of a real object, which is felt, and for null models that do not look at
-// all and declare it (TrialTruth). Responder.cpp has the table of all responders.
+// or a condition, with two exceptions: the mass of a real object, which is lifted, and null models
+// that declare that they do not look (TrialTruth). Responder.cpp has the table of all responders.
 //
 // Responders keep no memory between trials, and draw from streams keyed by trial number and
 // attempt, so that a trial interrupted by a crash is repeated exactly.
@@ -78,7 +78,7 @@ class Responder {
   /// then stops the session instead of waiting forever.
   virtual bool has_more(double t_s) const = 0;
 
-  /// The answer to a trial moved by any hand: the decision model's answer to all of these frames.
+  /// The decision model's answer to a trial with these frames, whichever hand moved the effector.
   /// Does not affect the current trial.
   /// @param wrong_slots incorrect choices so far, oldest first, if the task asks again
   /// @return none: no answer to this trial
@@ -121,8 +121,7 @@ struct ResponderEntry {
   std::string_view summary;
   ResponderFile file = ResponderFile::none;
   /// @throws InvalidFile naming each unknown or invalid parameter at its place, with the most
-  /// similar
-  ///   valid name; Error if a folder lacks a required file
+  ///   similar valid name; Error if a folder lacks a required file
   std::unique_ptr<Responder> (*make)(const ResponderOptions& options);
   std::span<const ParameterPart> parts;  ///< parts whose parameters its file may set
   bool touches_cubes = true;             ///< false: its hand rests
@@ -136,8 +135,8 @@ std::string describe_parameters(const ResponderEntry& responder);
 /// @throws Error (usage) suggesting the most similar responder if there is none of that name
 const ResponderEntry& responder_named(std::string_view name);
 
-/// The random stream of one attempt at a trial; equal when the attempt is repeated, another after
-/// the cubes were rearranged.
+/// The random stream of one attempt at a trial; the same if the attempt is repeated, a different
+/// one after the cubes were rearranged.
 inline RandomStream trial_stream(std::uint64_t seed, std::string_view purpose,
                                  const TrialView& trial) {
   std::string stream(purpose);

@@ -97,7 +97,7 @@ constexpr std::array rows{
     ParameterRow{coin, "concentration", "1", 0, 0, 1000, 0, &P::concentration,
                  "p differs between participants as Beta(p c, (1 - p) c) for concentration c; 0: "
                  "it does not"},
-    // Those that know the plan.
+    // Models that know the plan.
     ParameterRow{anchor, "anchor_fraction", "1", 0.5, 0, 3, 0.4, &P::anchor_fraction,
                  "\"same\" once the level has come down to this fraction of where it started: a "
                  "judgment anchored on the first value (Tversky and Kahneman 1974)"},
@@ -161,7 +161,7 @@ std::string set(const Parameter& parameter, std::span<const ParameterPart> parts
   return row ? set_number(parameter, *row, parameters) : unknown(std::string(name), parts);
 }
 
-// What a participant is, drawn once.
+// Draws the cue and the p of one participant.
 void draw_kind(std::uint64_t seed, P& parameters) {
   if (parameters.moved_share > 0) {
     const bool is_one = RandomStream(seed, "participant's cue").coin(parameters.moved_share);

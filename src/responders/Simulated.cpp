@@ -12,7 +12,7 @@
 namespace heft {
 
 namespace {
-// What the offsets of equal cubes differ by from stroke to stroke.
+// By about this much, offsets of equal cubes differ from stroke to stroke.
 constexpr double ideal_criterion_mm = 0.3, ideal_criterion_fraction = 0.03;
 
 /// State of one trial.

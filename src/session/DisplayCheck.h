@@ -1,6 +1,5 @@
-// The check of the participant's display: a trial without a participant, on their window, at its
-// size, with the session's pictures, physics and page. What it measures is what a trial does.
-// Runs before a session with a person, and in `heft doctor`.
+// The check of the participant's display: a trial without a participant, in the session's window,
+// with its pictures, physics and page. Runs before a session with a person, and in `heft doctor`.
 #pragma once
 
 #include <vector>
@@ -13,7 +12,8 @@
 
 namespace heft {
 
-/// Periods of the display after its capture; a frame that is presented later counts as late.
+/// A frame counts as late if it is presented more than this many periods of the display after its
+/// capture.
 inline constexpr double late_periods = 2;
 
 /// A picture that was displayed.
@@ -24,8 +24,7 @@ struct PresentedPicture {
 
 /// Judges the period between frames, the delay from a picture's capture to its presentation, and
 /// dropped pictures. FAILED if the period is more than a tenth above the protocol's, or more than a
-/// tenth of the pictures is dropped; a warning if one of a hundred is later than two periods, as
-/// trials count late frames, or more than 2 % are dropped.
+/// tenth of the pictures is dropped; a warning if more than 1 % are late or more than 2 % dropped.
 /// @param wanted_rate_hz the protocol's display_rate_hz
 CheckResult display_verdict(const std::vector<PresentedPicture>& pictures, double wanted_rate_hz);
 
@@ -38,8 +37,8 @@ struct DisplayedTrial {
   SessionClock& clock;  ///< a wall clock
 };
 
-/// Checks the camera, if any, and then the view's display, if any. Pictures of a file are not taken
-/// from the session: then the display is not measured, and the result says so.
+/// Checks the camera, if any, and then the view's display, if any. With pictures from a file, which
+/// the session needs, the display is not measured, and the result says so.
 std::vector<CheckResult> check_equipment(const DisplayedTrial& trial);
 
 }  // namespace heft

@@ -18,7 +18,7 @@ class Equipment {
 
   SessionParts parts(Engine& engine, EventSink& sink);
 
-  /// As before a session (DisplayCheck.h).
+  /// The checks before a session (DisplayCheck.h).
   std::vector<CheckResult> check();
 
   /// The configuration with the opened devices' facts.

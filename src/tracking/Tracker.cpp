@@ -31,14 +31,14 @@ constexpr double least_bias_sd_px = 0.006;
 constexpr double bias_differs_px = 0.005, bias_differs_relative = 0.15;
 constexpr int tags_for_bias = 4, tags_for_focus = 8;
 
-// After so many pictures without the effector it is out of view, and only half of each picture is
+// After this many pictures without the effector it is out of view, and only half of each picture is
 // searched for it.
 constexpr int pictures_searched_whole = 3;
-// Without a board, every so many pictures are searched for it thoroughly, which takes several times
-// as long.
+// Without a board, one picture in this many is searched for it thoroughly, which takes several
+// times as long.
 constexpr int pictures_without_a_close_search = 4;
 
-// Every so many pictures, a quarter of the picture is searched for second prints of tags.
+// In one picture of this many, a quarter is searched for second prints of tags.
 constexpr int pictures_between_looks = 16;
 
 // Quality of a pose whose tags are seen twice, here and where they were in a lost picture.
@@ -322,7 +322,7 @@ int Tracker::doubles_in(const Region& part, const std::optional<BodyFit>& effect
   return n;
 }
 
-// Where both bodies are followed, the rest of the picture is not searched otherwise.
+// While both bodies are followed, the rest of the picture is searched only here.
 void Tracker::look_for_doubles(const std::optional<BodyFit>& effector) {
   const bool is_due = !board_family_tags_ && ++n_followed_ % pictures_between_looks == 0;
   const int next = n_followed_ / pictures_between_looks % 4;
@@ -332,7 +332,6 @@ void Tracker::look_for_doubles(const std::optional<BodyFit>& effector) {
   result_.n_foreign_tags = std::max(result_.n_foreign_tags, std::ranges::max(doubles_));
 }
 
-// The last picture's result.
 TrackedPicture Tracker::repeated() {
   result_.repeated = true;
   result_.jump = false;

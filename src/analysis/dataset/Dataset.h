@@ -26,14 +26,14 @@ struct Attempt {
   std::vector<CubeRow> cubes;      ///< by slot
   std::vector<AnswerRow> answers;  ///< in order
   bool is_reversal = false;
-  /// Largest turn of the clone against the hand while it touched a cube, by slot; only where frames
-  /// were kept.
+  /// Largest yaw of the clone relative to the hand while it touched a cube, by slot; empty without
+  /// frames.
   std::map<int, double> clone_yaw_deg{};
-  /// What a comparison could be answered by.
+  /// The answers that a comparison offered.
   ComparisonAnswers answers_offered = ComparisonAnswers::heavier_or_none;
 
   bool completed() const { return trial.status == TrialStatus::completed; }
-  /// A completed comparison with an answer and a level: of three answers, or others.
+  /// A completed comparison with an answer and a level, which offered the answers `answered`.
   bool is_usable_comparison(ComparisonAnswers answered = ComparisonAnswers::heavier_or_none) const {
     return has_comparison() && answers_offered == answered;
   }
@@ -43,7 +43,7 @@ struct Attempt {
   bool shows(std::span<const double> masses) const;
 };
 
-/// validated - shown - paused - lost, in seconds; none where the trial was not shown or validated.
+/// validated - shown - paused - lost, in seconds; none if the trial was not shown or not validated.
 std::optional<double> response_time_s(const TrialRow& trial);
 
 /// Camera pictures of a session with a participant.
@@ -62,9 +62,10 @@ struct PictureCounts {
 
 /// How well the effector of a session was tracked.
 struct TrackingCounts {
-  int n_lost = 0;                      ///< tracking losses in trials
-  double lost_s = 0, answering_s = 0;  ///< out of sight; of what time from shown to validated
-  FrameCounts frames;                  ///< none where frames were not kept
+  int n_lost = 0;  ///< tracking losses in trials
+  /// Sums over trials: time with tracking lost; time from shown to validated, without pauses.
+  double lost_s = 0, answering_s = 0;
+  FrameCounts frames;  ///< none where frames were not kept
 };
 
 /// Incidents of a session.
@@ -94,18 +95,18 @@ struct SessionData {
   std::vector<LoggedSetup> setups;  ///< configurations, in order
   /// Staircases of the protocol that estimate no JND, such as constant stimuli.
   std::set<std::string> without_jnd{};
-  std::optional<AnalysisPlan> plan{};  ///< what its protocol declares to test; none: nothing
+  std::optional<AnalysisPlan> plan{};  ///< hypotheses that its protocol declares; none: it has none
   ExclusionRules exclusion{};
   /// Its protocol's staircases by name, without choices.
   std::map<std::string, StaircaseRun> staircases{};
-  /// Those of its conditions that the paper measured, by law and parameters.
+  /// Its conditions with the law and parameters of one of the paper's, by name.
   std::map<std::string, published::Condition> published_conditions{};
-  /// What its judgments ask, and what the answers respond to procedures, by block.
+  /// Questions of its judgments, and the meaning of their answers for procedures, by block.
   std::map<std::string, JudgmentOffer> judgments{};
 
-  /// A model answered at least one of its trials; where there is none, was to answer.
+  /// Whether a model answered one of its trials, or, if there are no trials, was configured to.
   bool simulated() const { return model().has_value(); }
-  /// That model.
+  /// The first such model, as NAME or NAME:FILE.
   std::optional<std::string> model() const;
   /// Identity for counting; simulated responders with one name but different models are distinct.
   std::string participant() const;
@@ -120,7 +121,7 @@ struct SessionData {
 /// The sum of a session's `camera` events.
 PictureCounts count_pictures(const std::vector<LoggedEvent>& events);
 
-/// Those that are reported in words.
+/// Notes, deviations, unblindings and checks that were not passed, in order.
 std::vector<Noted> noted_in(const std::vector<LoggedEvent>& events);
 
 /// The events of a session that EventCounts counts.
@@ -143,8 +144,7 @@ struct Dataset {
   std::vector<SessionData> sessions;
 };
 
-/// The sessions of one or several logs, read one by one: of a thousand no more than one is in
-/// memory.
+/// The sessions of one or several logs, read one at a time so that only one is in memory.
 class LoggedSessions {
  public:
   /// @param session_ids which, of a single log; empty: all
@@ -155,12 +155,12 @@ class LoggedSessions {
 
   /// The logs' files, as given.
   std::string database() const;
-  /// May be called again, and gives the same. Of several logs participants have person_name(), and
-  /// each log is a lab's.
+  /// Visits each session in order; the same ones in every call. With several logs, participants are
+  /// named by person_name(), and each log counts as a lab.
   void each(const std::function<void(const SessionData&)>& use) const;
   /// Sessions without data, because they were withdrawn.
   int n_withdrawn() const { return n_withdrawn_; }
-  /// By name, how many sessions have each.
+  /// Number of sessions by purpose.
   const std::map<std::string, int>& purposes() const { return purposes_; }
 
  private:

@@ -14,7 +14,7 @@ namespace heft {
 
 namespace {
 
-// What a declared technique does, for people.
+// A declared technique in words.
 struct LawText {
   std::string operator()(const Coupling& coupling) const {
     if (!coupling.decoupled) return "coupled: the clone stays on the effector";
@@ -38,7 +38,7 @@ bool has_practice(const Block& block) {
   return trials && trials->practice;
 }
 
-// Collects the choices of one protocol; of blocks too, which may differ in theirs.
+// Collects the choices of one protocol, and those of each of its blocks.
 class Collector {
  public:
   explicit Collector(const Protocol& protocol) : name_(protocol.name) {
@@ -84,7 +84,7 @@ class Collector {
   std::string name_;
 };
 
-// Participants of a study have one protocol, each in a different order.
+// The order of blocks differs between participants of one protocol.
 bool is_order(const ProtocolSetting& setting) {
   return setting.key == order_key;
 }
@@ -104,7 +104,7 @@ std::string joined(const std::set<std::string>& texts) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// Sessions with one key had one protocol.
+// Equal for sessions that ran the same protocol.
 std::string key_of(const SessionData& data) {
   const SessionHeader& header = data.session.header;
   return fmt::format("{}{}{}", header.protocol_name, header.protocol_sha256,

@@ -35,21 +35,21 @@ struct EnumNames<HypothesisVerdict> {
                                                          "inconclusive"};
 };
 
-/// One of the paper's hypotheses, what these data say of it, and the figures. It is judged where
-/// technique, masses and task are the paper's.
+/// One of the paper's hypotheses, with the verdict of these data and the figures behind it. It is
+/// tested only if technique, masses and task are the paper's.
 struct Hypothesis {
   std::string name;  ///< "E1-H1"
   std::string statement;
   bool declared = false;  ///< by the protocols of all sessions; otherwise it is exploratory
   HypothesisVerdict verdict = HypothesisVerdict::inconclusive;
-  std::string why;
+  std::string why;                   ///< reason for the verdict
   std::vector<std::string> figures;  ///< a sentence each
-  std::string condition{};           ///< of this log that is the paper's; empty: none is
+  std::string condition{};           ///< condition of this log that is the paper's; empty: none
 
   bool applies() const { return declared || !condition.empty(); }
 };
 
-/// What several sections are made of; sessions are read once for all.
+/// Data that several sections use, collected while the sessions are read once.
 struct SharedCollectors {
   ComparisonTrials comparisons;
   StaircaseCollector staircases, judgments{"judgment"};
@@ -60,26 +60,26 @@ class Section;
 struct Summary {
   std::string database, command;
   LogIntegrity integrity = {};
-  bool checks_models = true;  ///< by simulated studies
+  bool checks_models = true;  ///< whether models are checked by simulated studies
   std::string data;           ///< "human", "simulated" or "human and simulated"; empty: no sessions
   std::vector<SessionSummary> sessions;
-  int n_participants = 0;                    ///< that count
-  std::vector<ParticipantRow> participants;  ///< all, those left out too
+  int n_participants = 0;                    ///< without excluded ones
+  std::vector<ParticipantRow> participants;  ///< with excluded ones
   std::optional<AnalysisPlan> plan;
   Estimates estimates;  ///< over participants, in the order of the sections
-  std::vector<std::shared_ptr<const Section>> sections;  ///< which have each participant's
+  std::vector<std::shared_ptr<const Section>> sections;  ///< they have estimates by participant
   std::shared_ptr<const SharedCollectors> shared = std::make_shared<SharedCollectors>();
   Quality quality;
   ParticipantFlow flow;
   std::vector<SessionTracks> all_tracks;
   std::vector<Hypothesis> hypotheses;
-  /// Which conditions are the paper's, by technique; masses may differ.
+  /// By condition, which of the paper's conditions its technique is, if any; masses may differ.
   std::map<std::string, published::Comparable> comparable;
   std::vector<RanProtocol> protocols;
   std::vector<ProtocolChoice> choices;
   std::vector<SetupValue> setups;
   std::vector<Incident> incidents;
-  std::vector<std::string> notes;  ///< what a reader must know about what was counted
+  std::vector<std::string> notes;  ///< sentences that qualify the figures
 
   bool simulated() const { return data == "simulated" || data == "human and simulated"; }
 };

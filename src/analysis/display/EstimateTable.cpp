@@ -89,7 +89,7 @@ bool belongs(const StudyEstimate& estimate, const EstimateColumn& column) {
 
 using Chosen = std::vector<const StudyEstimate*>;
 
-// Those of the table's measures.
+// The estimates of the table's measures.
 Chosen chosen_for(const EstimateTable& declared, const Estimates& estimates) {
   std::set<const Measure*> measures;
   for (const EstimateColumn& column : declared.columns) measures.insert(column.measure);

@@ -1,6 +1,5 @@
 // Magnitude estimation: the numbers given to single cubes by mass, friction and condition, and the
-// exponents of the power function between mass, friction and number (Stevens 1957), of each
-// participant and over them.
+// exponents of number as a power function of mass and friction (Stevens 1957).
 #include <fmt/format.h>
 
 #include <cmath>
@@ -43,7 +42,7 @@ struct CubeKind {
 
 struct Exponents {
   std::optional<double> mass, friction;
-  std::string why;  // there is none
+  std::string why;  // reason if they are missing
 };
 
 // One participant's numbers in one condition.
@@ -280,7 +279,7 @@ class EstimationSection final : public Section {
 
  private:
   std::map<std::pair<std::string, std::string>, Numbers> people_;  // by condition and participant
-  bool has_friction_ = false;                                      // a cube has its own
+  bool has_friction_ = false;                                      // some cube has table_friction
 };
 }  // namespace
 

@@ -1,5 +1,5 @@
-// Sorting: how heavy cubes were perceived, by the orders given to them in each condition
-// (Thurstone's case V).
+// Sorting: perceived masses of cubes in each condition, from the participants' orders (Thurstone's
+// case V).
 #include <fmt/format.h>
 
 #include <map>

@@ -21,7 +21,7 @@ std::shared_ptr<Section> adjustment_section();
 std::shared_ptr<Section> forced_choice_section();
 std::shared_ptr<Section> same_different_section();
 
-// Those first that hold most of each participant, as sections let go of it one after the other.
+// Sections with the most data per participant come first, since put() frees much of it.
 std::vector<std::shared_ptr<Section>> all_sections() {
   return {timing_section(),         lag_section(),
           tracking_section(),       sorting_section(),

@@ -36,7 +36,7 @@ StudyEstimate estimate_at(const Measure& measure, const ReferenceSensitivity& ro
   return estimate;
 }
 
-// @param row the threshold above the fraction line
+// Adds the ratio of the threshold of `row` to that of `below`.
 void put_ratio(Estimates& all, const Measure& measure, const ReferenceSensitivity& row,
                const ReferenceSensitivity& below, Coordinate where) {
   const Contrast contrast =

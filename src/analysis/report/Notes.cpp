@@ -101,7 +101,7 @@ std::vector<std::string> NotesCollector::methods_notes() const {
   return notes;
 }
 
-// Physics are the same without a held effector; the movements differ.
+// A dragged effector has the same physics as a held one, but other movements.
 std::string NotesCollector::dragged_note() const {
   if (dragged_.empty()) return "";
   return fmt::format(

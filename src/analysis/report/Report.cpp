@@ -143,7 +143,7 @@ std::string hypotheses_html(const Summary& summary) {
   return html + "</dl>\n";
 }
 
-// To be pasted by an author.
+// Text for the author's paper.
 std::string methods_html(const Methods& methods) {
   if (methods.paragraphs.empty()) return "";
   std::string html = "<h2 id=\"methods\">Methods</h2>\n";

@@ -27,7 +27,6 @@ struct SeenLight {
   std::vector<double> blocks;
 };
 
-// Pictures until that time.
 std::vector<SeenLight> watch(Camera& camera, double until_s) {
   std::vector<SeenLight> seen;
   for (double left_s; (left_s = until_s - monotonic_s()) > 0;)
@@ -66,7 +65,7 @@ class PatchInPicture {
   std::vector<std::size_t> blocks_;
 };
 
-// Mean of the last pictures before the next change.
+// Light of the blocks in the last picture before the next change.
 std::vector<double> settled(Camera& camera) {
   const std::vector<SeenLight> seen = watch(camera, monotonic_s() + learning_s);
   if (seen.size() < 2)
@@ -112,7 +111,7 @@ DisplayDelay measure_display_delay(Camera& camera, const std::function<double()>
     present();
     second.push_back(settled(camera));
   }
-  // The picture shows which of both is white.
+  // The brighter of the two states is white.
   const std::vector<double> one = mean_of(first), other = mean_of(second);
   const double brighter = std::accumulate(one.begin(), one.end(), 0.0) -
                           std::accumulate(other.begin(), other.end(), 0.0);

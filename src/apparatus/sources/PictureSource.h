@@ -23,9 +23,9 @@ namespace heft {
 
 /// What the session needs of one picture.
 struct Picture {
-  TargetSample sample;  ///< t_capture_s: since the attempt's start
-  std::string trouble;  ///< "camera_lost", "board_lost"; empty: usable
-  std::optional<double> quality;
+  TargetSample sample;                  ///< t_capture_s: since the attempt's start
+  std::string trouble;                  ///< "camera_lost", "board_lost"; empty: usable
+  std::optional<double> quality;        ///< of the effector's pose, 0 to 1
   std::shared_ptr<const Image> camera;  ///< none: no camera
   std::optional<Pose> camera_from_board;
   int n_dropped = 0;     ///< by the camera, since the previous picture
@@ -92,7 +92,7 @@ struct PictureParts {
   std::uint64_t seed = 0;     ///< the session's
   std::string record_to;      ///< folder for the camera's pictures; empty: not stored
   std::string settings = {};  ///< contents of the settings file that `what` names
-  bool left_hand = false;     ///< which hand holds the effector before a rendered camera
+  bool left_hand = false;     ///< whether the rendered hand is a left one
   /// Dragged on the screen by the participant; none without such a window.
   std::shared_ptr<const DraggedEffector> dragged = {};
 };

@@ -55,7 +55,7 @@ Purpose purpose_of(const RunOptions& options) {
 
 SessionOptions session_options(const RunOptions& options) {
   SessionOptions given = options.given;
-  // Logged as the protocol's key that it is.
+  // Logged as a change of the protocol's key.
   if (options.text_size)
     given.settings.push_back({"screens.text_size", fmt::format("{}", *options.text_size)});
   if (!given.hand) given.hand = Side::right;
@@ -221,7 +221,7 @@ void take_from_plan(RunOptions& options) {
       plan.participants, rehearsal);
 }
 
-// 1 for 01 would separate one person's sessions.
+// Typing 1 instead of 01 would separate one person's sessions.
 void refuse_near_id(RunOptions& options) {
   if (options.again || options.are_two) return;
   if (const auto near = near_id(*options.participant, sessions_in(*options.db)))

@@ -64,7 +64,7 @@ const HypothesisPower* at_size(const PowerAtSize& size, const std::string& name)
   return found == size.hypotheses.end() ? nullptr : &*found;
 }
 
-// The smallest, a middle and the largest size; one by whole sessions after its surrogates.
+// The smallest, a middle and the largest size. Whole sessions follow the surrogates of their size.
 std::vector<const PowerAtSize*> columns_of(const ModelPower& found, bool tables) {
   const std::vector<PowerAtSize>& sizes = found.power.sizes;
   std::vector<const PowerAtSize*> columns;
@@ -151,8 +151,6 @@ std::string sentence_of_precision(const PowerAtSize& size) {
       size.participants, name_of(*widest), factor(*widest), widest->printed.percent());
 }
 
-// JSON.
-
 ordered_json object_of(const HypothesisPower& one) {
   return {{"hypothesis", one.name},
           {"statement", one.statement},
@@ -184,9 +182,7 @@ ordered_json object_of(const EstimatePrecision& one) {
           {"sd_over_studies", one.sd ? ordered_json(*one.sd) : ordered_json(nullptr)}};
 }
 
-// Chart.
-
-// Series stand side by side, since many are equal.
+// Series are drawn side by side, since many are equal.
 std::string lines_of(const std::vector<std::string>& names, const std::string& prefix,
                      int largest) {
   const auto aside_of = [largest](std::size_t i, std::size_t n) {

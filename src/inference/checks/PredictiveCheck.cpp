@@ -28,7 +28,7 @@ struct Shares {
   }
 };
 
-// Of people, or of studies, some have no figure.
+// The finite values: some people or studies have no figure.
 std::vector<double> known(std::vector<double> values) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   return values;
@@ -54,7 +54,7 @@ double known_kurtosis(const std::vector<double>& all) {
   return ratio(static_cast<double>(values.size()) * fourth, square * square);
 }
 
-// After a space; of a single range nothing.
+// Begins with a space; empty if there is only one range.
 std::string range_name(std::span<const double> edges_g, std::size_t range) {
   if (edges_g.empty()) return "";
   if (range == 0) return fmt::format(" up to {:.0f} g", edges_g.front());
@@ -62,7 +62,7 @@ std::string range_name(std::span<const double> edges_g, std::size_t range) {
   return fmt::format(" from {:.0f} to {:.0f} g", edges_g[range - 1], edges_g[range]);
 }
 
-// Everything that is compared of one study, seen or predicted.
+// The figures of one study, observed or simulated, that are compared.
 class StudyTally {
  public:
   explicit StudyTally(std::span<const double> edges_g)
@@ -124,7 +124,7 @@ class StudyTally {
     for (const auto& [name, value] : of_all_levels) all.push_back(value(*this));
     return all;
   }
-  /// Of these, in their order.
+  /// Names of figures(), in the same order.
   static std::vector<std::string> names(std::span<const double> edges_g) {
     std::vector<std::string> all;
     for (std::size_t i = 0; i <= edges_g.size(); ++i) {
@@ -192,7 +192,7 @@ constexpr std::array<StudyTally::OfAllLevels, 14> StudyTally::of_all_levels{{
      }},
 }};
 
-// A staircase from its first trial on, with choices from elsewhere.
+// Runs a staircase from its first trial with given choices, and adds it to the tally at its end.
 class Walk {
  public:
   Walk(const StaircaseRun& run, StudyTally& tally) : run_(run), tally_(tally) {}
@@ -248,7 +248,7 @@ class SimulatedStudy {
            : u < shares.reference + shares.none ? Choice::none
                                                 : Choice::comparison;
   }
-  // As long as it goes; if the person's own did not end, as long as that.
+  // Runs until the staircase ends; if the person's staircase did not end, for as many trials.
   void run(const StaircaseRun& run, bool ended, StudyTally& tally) {
     const std::size_t most = ended ? 1000 + 10 * run.choices.size() : run.choices.size();
     Walk walk(run, tally);
@@ -269,7 +269,7 @@ class SimulatedStudy {
   IndecisionParameters person_;
 };
 
-// Of a figure over studies.
+// Distribution of a figure over studies; unknown for fewer than 20.
 struct Distribution {
   double mean = unknown, sd = unknown, low = unknown, high = unknown;
   explicit Distribution(const std::vector<double>& of_studies) {
@@ -297,8 +297,8 @@ std::optional<PredictedShares::Band> band(const std::vector<std::vector<Shares>>
   return PredictedShares::Band{of.mean, of.low, of.high};
 }
 
-// Of few people many studies; of many people, or of Bayesian procedures, which take long, few: a
-// hundred distinguish a share of .05 from .1.
+// Many studies for few people; 100 for many people or Bayesian procedures, which are slow. 100
+// distinguish a share of .05 from .1.
 std::size_t studies_for(std::span<const PersonRuns> people) {
   const bool any_bayesian = std::ranges::any_of(people, [](const PersonRuns& person) {
     return std::ranges::any_of(person.staircases,
@@ -307,7 +307,7 @@ std::size_t studies_for(std::span<const PersonRuns> people) {
   return std::clamp<std::size_t>(100'000 / people.size(), 100, any_bayesian ? 100 : 500);
 }
 
-// Of each person and staircase: whether it ended.
+// By person and staircase.
 using Ended = std::vector<std::vector<bool>>;
 
 Ended walk_all_again(std::span<const PersonRuns> people, StudyTally& seen) {

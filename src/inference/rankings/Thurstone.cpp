@@ -45,8 +45,8 @@ class Chains {
   std::vector<std::vector<bool>> above_;
 };
 
-// Of the variance over people to that of independent trials: people who happen to be nearly equal
-// don't make the interval vanish.
+// Lower bound of the ratio of the variance over people to that of independent trials, so that the
+// interval does not vanish if people happen to be nearly equal.
 double least_ratio(double n_people) {
   const boost::math::chi_squared chance(n_people - 1);
   return quantile(chance, 0.025) / (n_people - 1);
@@ -58,7 +58,7 @@ struct Landscape {
   Eigen::MatrixXd information;
 };
 
-/// Orders of stimuli that are linked with each other, by their values less the first one's.
+/// Maximum-likelihood values of linked stimuli, relative to the first one's, from their orders.
 class Scale {
  public:
   Scale(std::vector<double> stimuli, const OrdersByPerson& people) : stimuli_(std::move(stimuli)) {
@@ -89,7 +89,7 @@ class Scale {
 
   using Influences = std::map<std::string, double>;  // by person
 
-  /// @param n people  @param each their influences
+  /// @param n number of people  @param each influences()
   Interval interval(double low, double high, int n, const Influences& each) const {
     const Eigen::VectorXd along = direction(low, high);
     const double variance = along.dot(best_.information.ldlt().solve(along));
@@ -101,8 +101,8 @@ class Scale {
     return {end(along, -fall, variance), end(along, fall, variance)};
   }
 
-  /// How the estimate changes without a person, to first order; of one person nothing. None:
-  /// without one of the people there is no estimate.
+  /// Change of the estimate without each person, to first order; empty for a single person. None:
+  /// if some person is left out, there is no estimate.
   std::optional<Influences> influences(double low, double high) const {
     if (n_people() <= 1) return Influences();
     const Eigen::VectorXd along = direction(low, high);
@@ -134,7 +134,7 @@ class Scale {
     return std::ranges::lower_bound(stimuli_, stimulus) - stimuli_.begin();
   }
 
-  // Of one order.
+  // Log probability of one order, with gradient and information.
   Landscape part(const RankOrder& order, const Eigen::VectorXd& at) const {
     const auto n = static_cast<Index>(order.size());
     Eigen::VectorXd values(n);
@@ -159,7 +159,8 @@ class Scale {
     sum.information += n * one.information;
   }
 
-  // Newton's method on a concave function, held in a direction if there is one.
+  // Newton's method on a concave function. @param held direction in which `from` does not move;
+  // empty: none
   Eigen::VectorXd climb(Eigen::VectorXd from, const Eigen::VectorXd& held) const {
     constexpr int most_steps = 100;
     Landscape here = landscape(from);
@@ -184,7 +185,7 @@ class Scale {
     return from;
   }
 
-  // The jackknife's.
+  // Jackknife variance.
   static double variance_of(const Influences& influences) {
     double sum = 0;
     for (const auto& [person, change] : influences) sum += change * change;
@@ -219,7 +220,7 @@ class Scale {
   int n_orders_ = 0;
   Eigen::VectorXd at_;
   Landscape best_;
-  std::map<RankOrder, Landscape> by_order_;  // of each once, at the maximum
+  std::map<RankOrder, Landscape> by_order_;  // part() of each order at the maximum
 };
 
 using Ranked = std::map<double, std::set<std::string>>;  // who ranked a stimulus

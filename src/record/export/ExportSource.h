@@ -57,9 +57,9 @@ class ExportSource {
   std::vector<ExportTable> tables_;
 };
 
-/// Renumbers all rows of a copy of a log, for pseudonymised exports: persons are in random order,
-/// each person's sessions in their own. Ids and the order of rows then do not show who took part
-/// when. Digests and seals become invalid.
+/// Renumbers all rows of a copy of a log, for pseudonymised exports: persons in random order, and
+/// each person's sessions in order of time. Ids and the order of rows then do not show who took
+/// part when. Digests become invalid, and seals are removed.
 void draw_fresh_ids(SQLite::Database& database);
 
 }  // namespace heft

@@ -1,6 +1,6 @@
-// Practice before the trials of a block: so many trials at most, until so many answers in a row are
-// correct, with or without feedback. Practice trials have own draws, count in no result and feed no
-// procedure: a comparison stays at its staircases' first levels.
+// Practice before the trials of a block: a number of trials, or until several answers in a row are
+// correct, with or without feedback. Practice trials have separate random draws, count in no result
+// and advance no procedure: comparisons show their staircases' first levels.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ namespace heft {
 
 struct Practice {
   int trials = 0;         ///< at most, and not more than the block has; 0: none
-  int until_correct = 0;  ///< in a row end it; 0: all trials
+  int until_correct = 0;  ///< correct answers in a row that end it; 0: all trials are shown
   bool feedback = false;  ///< after each trial, whether the answer was correct
 
   template <typename Visit>

@@ -44,7 +44,7 @@ void lock_gain(const DeviceRequest& device, CameraMode& mode) {
     mode.locked.push_back(gain ? fmt::format("gain {}", *gain) : "gain");
 }
 
-// Not a frequency: disabled, or chosen by the camera.
+// Locks 60 Hz if that is set, otherwise 50 Hz.
 void lock_power_line(const DeviceRequest& device, CameraMode& mode) {
   const auto now = value_of(device, V4L2_CID_POWER_LINE_FREQUENCY);
   if (!now) return;

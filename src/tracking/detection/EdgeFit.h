@@ -39,7 +39,7 @@ struct EdgeGuess {
   double noise =
       0;  ///< SD of the picture's noise if known, gray levels; does not lower the quality
   ToneCurve curve{};                  ///< the camera's
-  bool needs_curve_evidence = false;  ///< whether evidence on the curve is required
+  bool needs_curve_evidence = false;  ///< whether to compute FittedEdge::tone
 };
 
 struct FittedEdge {

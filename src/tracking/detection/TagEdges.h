@@ -31,7 +31,7 @@ struct EdgeMeasuring {
   int most_pixels = 1000;  ///< per edge
   double noise = 0;        ///< SD of the picture's noise, gray levels; 0: unknown
   ToneCurve curve{};
-  bool needs_curve_evidence = false;  ///< whether evidence on the curve is required
+  bool needs_curve_evidence = false;  ///< whether to compute FittedEdge::tone
   bool whole = false;  ///< a tag with a missing edge is not measured: its quality is 0
 };
 

@@ -53,8 +53,8 @@ struct BiasPrior {
 struct BodyFit {
   Pose camera_from_body;
   double bias_px = 0, bias_sd_px = 0;  ///< and its standard deviation from noise alone
-  /// Of a rotation about the camera's axes through the body's origin (rad), then a shift (m), from
-  /// noise and the bias's uncertainty.
+  /// Of a rotation about the camera's axes through the body's origin (rad) and a shift (m), in this
+  /// order, from noise and the bias's uncertainty.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   double rms_px = 0;  ///< distance of measured points from their edges
   double cost = 0;    ///< robust, in variances
@@ -72,8 +72,7 @@ struct BodyFit {
 
 /// @param previous the expected pose; selected where the picture is ambiguous
 /// @return none without tags, or if no pose fits them to a few pixels. Tags that do not fit the
-/// others are
-///   left out.
+///   others are left out.
 std::optional<BodyFit> solve_body(const std::vector<TagObservation>& tags,
                                   const std::optional<Pose>& previous, const BiasPrior& prior);
 

@@ -11,7 +11,7 @@ namespace heft {
 namespace {
 constexpr double flap_m = 0.008, flap_slant_m = 0.004;
 
-// The i-th edge of a face's outline, clockwise, and the number of edges.
+// The edges of a face's outline, clockwise.
 using Edge = std::array<NetPoint, 2>;
 std::vector<Edge> edges(const NetFace& face) {
   const std::vector<NetPoint> corners = face.corners_m();

@@ -24,7 +24,7 @@ struct PrintedFace {
 };
 
 /// A white sheet on the table with a margin around the tags; empty for a board without tags.
-/// @param ink_m by which black cells are larger on all sides: spread ink
+/// @param ink_m how far ink spreads beyond the edges of black cells
 /// @throws Error for an unknown family, and for tags that are not on the table
 PrintedFace printed_board(const MarkerBody& board, double ink_m = 0);
 

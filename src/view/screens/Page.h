@@ -136,7 +136,7 @@ class Taps {
 
   void down(Pointer pointer, const std::string& target) { pressed_[pointer] = target; }
 
-  /// @param target the control where the pointer was lifted; none: none
+  /// @param target the control where the pointer was lifted; none: outside of all
   /// @return whether that was a tap on the target
   bool up(Pointer pointer, const std::optional<std::string>& target) {
     const auto press = pressed_.extract(pointer);

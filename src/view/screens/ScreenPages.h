@@ -101,7 +101,7 @@ FillPage consent_screen, welcome_screen, instructions_screen, rest_screen, pause
 FillPage about_you_screen, how_decided_screen;
 /// A form's first unanswered question, or its last; 0 for other screens.
 int first_open_question(const ScreenState& state);
-/// The button that leads on from the i-th of n questions, and the one that leads back.
+/// The buttons to the question after and before the i-th of n.
 void add_turning(PageBuilder& builder, int i, int n, bool answered);
 // QuestionnaireScreen.cpp
 FillPage questionnaire_screen;
@@ -134,7 +134,7 @@ void add_cubes(PageBuilder& builder, const Rect& row, const std::function<Effect
 /// Two cubes below the task's question; one tap chooses one.
 void add_choice_of_cube(PageBuilder& builder);
 void add_put_back(PageBuilder& builder, const Rect& area);
-/// What must be done before an answer is possible.
+/// The hint on what must be done before an answer is possible.
 void add_hint(PageBuilder& builder);
 /// Marks the last answer until its cubes disappear, as a confirmation.
 void mark_named(PageBuilder& builder);
