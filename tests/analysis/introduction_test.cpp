@@ -1,4 +1,4 @@
-// The introduction: first tries, and whose count.
+// The introduction: which trials count as correct on the first try.
 #include <gtest/gtest.h>
 
 #include "Figures.h"

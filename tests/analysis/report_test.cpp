@@ -1,4 +1,4 @@
-// The report's folder: what is in it, and that nothing of others is overwritten.
+// The report's folder: its contents, and that other files are not overwritten.
 #include "analysis/report/Report.h"
 
 #include <gmock/gmock.h>

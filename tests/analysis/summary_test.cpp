@@ -1,5 +1,4 @@
-// The whole Summary: the JSON contract, what is said about what was counted, and that nothing at
-// all is fine too.
+// The whole Summary: its JSON, its notes, and logs without sessions.
 #include "analysis/dataset/Summary.h"
 
 #include <gmock/gmock.h>

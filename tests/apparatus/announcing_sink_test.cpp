@@ -1,5 +1,5 @@
-// Others hear of an event once it is on disk, in order, and of none that never was. Contacts and
-// resets, which the log buffers, are also announced at once, as not logged yet.
+// Events are sent in order once they are on disk, and never if the log refused them. Buffered
+// events, such as contacts, are also sent immediately, marked as not logged.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -12,8 +12,8 @@ import unittest
 from pathlib import Path
 
 PROTOCOL = Path(__file__).resolve().parents[2] / "protocols" / "examples" / "paired_staircases.toml"
-# A participant: 65 measured, about 33 of them the nodes over which the mixed model integrates, at one
-# reference at a time.
+# For each participant: 65 were measured, of which about 33 are the nodes over which the mixed model
+# integrates.
 MOST_KB = 72
 IDS = ("session_id", "trial_id", "event_id", "setup_id", "answer_id", "from_event_id", "frame_id")
 TABLES = ("session", "participant_info", "event", "setup", "participant_parameter", "trial", "cube",
@@ -22,7 +22,7 @@ heft = None
 
 
 def copy_sessions(log, n_copies):
-    """As many more of each session, under other ids and names; analyse doesn't ask for digests."""
+    """Adds n_copies of each session, with other ids and participants; their digests are wrong."""
     db = sqlite3.connect(log)
     apart = 1 + max(db.execute("select ifnull(max(event_id), 0) from event").fetchone()[0], 100000)
     for table in TABLES:

@@ -1,6 +1,6 @@
-"""Logs as CSV: read back they are what SQLite holds, the dictionary explains every column, and the
-figures of analyse come out of them again. Datasets by Psych-DS and BIDS keep their standards' rules
-(their own validators, R and pandas: export_against_others.py).
+"""Exports: CSV files hold what SQLite holds, the dictionary explains every column, and analyse's
+figures can be computed from them. Psych-DS and BIDS datasets follow the rules of their standards
+(validators, R and pandas: export_against_others.py).
 
 Run: python3 tests/cli/export_test.py PATH_TO_HEFT
 """
@@ -18,10 +18,10 @@ from session_harness import PROTOCOLS, SessionTest, change, main, query
 
 TABLES = {"trials": "trial", "answers": "answer", "reversals": "reversal", "estimates": "estimate",
           "cubes": "cube", "participants": "session", "setups": "setup", "frames": "frame"}
-# What a file leaves to the log, and what it has beside the table's own columns.
+# Columns of the log that a file omits.
 LEFT_OUT = {"participants": {"protocol_text", "run_options", "n_events", "n_frames", "info_digest",
                              "digest"}, "frames": {"digest"}}
-# All names that only CSV files have.
+# Columns that only CSV files have.
 ADDED = {"log", "lab", "participant", "person", "session_id", "response_time_s"}
 TASKS = {"introduction", "sorting", "comparison"}
 

@@ -1,5 +1,5 @@
-"""Studies: who is next, in which group and order; what the log says of it, its backups, and the
-events that others hear of.
+"""Studies: the place, group and order of the next participant, what the log records of it, backups,
+and events for other recorders.
 
 Run: python3 tests/cli/study_test.py path/to/heft
 """
@@ -39,7 +39,7 @@ language = "fr"
 """
 
 
-# Soon at its end for whoever feels differences, and long for whoever never does.
+# Short for a participant who perceives differences, long for one who never does.
 LONG = """title = "Long"
 display_rate_hz = 15
 [[block]]
@@ -120,7 +120,7 @@ class Plans(StudyTest):
             self.assertIn("verified", said.stdout + said.stderr)
 
     def test_one_that_was_killed_continues_in_its_order(self):
-        self.next()  # as it would have been
+        self.next()  # uninterrupted, for comparison
         whole = self.folder / "logs" / "whole.db"
         self.db.rename(whole)
         process = subprocess.Popen([self.heft, "run", "--plan", self.plan, "--responder",
@@ -157,7 +157,7 @@ class Plans(StudyTest):
         changed = self.folder / "again.toml"
         changed.write_text(changed.read_text() + "# more words\n")
         said = ""
-        for number in range(5, 9):  # of the two groups
+        for number in range(5, 9):  # two of each group
             done = self.next("--participant", f"P{number:02}", expect=None)
             if done.returncode:
                 self.assertEqual(done.returncode, 2, done.stderr)
@@ -169,7 +169,7 @@ class Plans(StudyTest):
                 break
         self.assertTrue(said, "nothing was told")
         n = 0
-        for number in range(9, 13):  # asked once, but told again
+        for number in range(9, 13):  # confirmed once, then warned
             done = self.next("--participant", f"P{number:02}")
             n += "WARNING" in done.stderr
         self.assertEqual(n, 2)
@@ -407,7 +407,7 @@ class Backups(StudyTest):
     def test_that_fail_harm_nothing_and_are_reported(self):
         db, copies = self.folder / "a.db", self.folder / "copies"
         process = self.under_way(db)
-        copies.rmdir()  # the stick is pulled out
+        copies.rmdir()  # as if the backup disk were removed
         copies.write_text("")
         said = process.communicate()[1]
         self.assertEqual(process.returncode, 0, said)
@@ -452,7 +452,7 @@ class Backups(StudyTest):
 
 class Events(StudyTest):
     def received(self, lines, db):
-        """Lines as they came are the log's events, in order."""
+        """Checks that lines are the log's events in order; returns those of logged events."""
         told = [json.loads(line) for line in lines]
         self.assertEqual(told.pop()["kind"], "sealed")
         at_once = [line for line in told if line.get("logged") is False]

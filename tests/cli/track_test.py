@@ -85,8 +85,8 @@ class Track(unittest.TestCase):
         # The board's y points up in the picture, its z at the camera: half a turn about x.
         self.assertGreater(abs(float(row["camera_qx"])), 0.999)
         self.assertLess(float(row["reprojection_px"]), 0.2)
-        # One tag from straight ahead: two tilts fit alike, and without other tags to tell the edge
-        # bias its distance is open by more than half a millimeter.
+        # One tag from straight ahead: two tilts fit equally well, and without other tags to determine
+        # the edge bias, its distance is uncertain by more than half a millimeter.
         self.assertGreater(float(row["quality"]), 0.1)
         self.assertLess(float(row["quality"]), 0.4)
 

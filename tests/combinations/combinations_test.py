@@ -1,5 +1,5 @@
-"""Whatever may meet in a session runs, goes on and replays "verified"; what may not is refused with
-a reason before anything is logged. A live camera needs a device: it is played in tests/session.
+"""Every allowed combination of responder, tracker, view and simulator runs, resumes and replays as
+verified; others are refused with a reason before anything is logged. Live cameras: tests/session.
 
 Run: python3 tests/combinations/combinations_test.py path/to/heft [seed]
 """
@@ -32,7 +32,7 @@ CAMERA = ROOT / "protocols" / "apparatus" / "synthetic_camera.yaml"
 RESTING = ["always_yes", "always_no", "coin", "criterion_only", "start_anchored", "weber"]
 FILMED = ["synthetic", "frames", "video"]
 HAS_SCREEN = shutil.which("Xvfb") and shutil.which("xdotool")
-AT_ONCE = 6  # most of them wait
+AT_ONCE = 6  # processes; most of them wait
 
 
 class Answerer(Person):
@@ -80,7 +80,7 @@ class Combinations(unittest.TestCase):
         return done
 
     def options(self, name, tracker, view):
-        """Of a tracker and a view, by the names that they have here."""
+        """Options of the command line for a tracker and a view."""
         of_tracker = {"hand": ["hand"], "synthetic": ["synthetic"], "mouse": ["mouse"],
                       "frames": [f"frames:{self.folder / 'frames'}", "--camera-file", CAMERA],
                       "video": [f"video:{self.folder / 'film.avi'}", "--camera-file", CAMERA]}
@@ -91,7 +91,7 @@ class Combinations(unittest.TestCase):
         return f"scripted:{self.folder / recording}" if name == "scripted" else name
 
     def each(self, check, cases):
-        """Checks all cases, several at once; every failure is said with its case."""
+        """Checks all cases, several in parallel; every failure is reported with its case."""
         with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
             running = [(case, pool.submit(check, *case)) for case in cases]
         for case, done in running:
@@ -108,14 +108,14 @@ class Combinations(unittest.TestCase):
         self.assertIs(said["simulated"], True)
 
     def asked_once(self, db):
-        """The questionnaire came, and was answered or left out."""
+        """The questionnaire was shown exactly once."""
         self.assertEqual(query(db, "select count(*) from participant_info where key = "
                                    "'fours.borg_cr10.done_s'"), [(1,)])
 
     def new(self, *parts):
         return self.folder / ("-".join(parts) + ".db")
 
-    # What may meet
+    # Allowed combinations
 
     def meet(self, responder, tracker, view):
         db = self.new("fresh", responder, tracker, view)
@@ -123,7 +123,7 @@ class Combinations(unittest.TestCase):
         done = self.heft("run", self.folder / f"{which}.toml", "--participant", "1", "--responder",
                          self.responder(responder), "--db", db, "--seed", SEED,
                          *self.options(db.stem, tracker, view), expect=None)
-        # A filmed hand is not the model's own: it may stay away from where that one would push.
+        # A filmed hand is not the model's: it may not touch the cubes that the model waits for.
         ended = responder == "simulated" and tracker in ("frames", "video") and done.returncode == 1
         self.assertTrue(done.returncode == 0 or ended, done.stderr)
         self.verified(db, unfinished=ended)
@@ -146,7 +146,7 @@ class Combinations(unittest.TestCase):
         steps = query(db, "select trial_t_s - lag(trial_t_s) over (partition by trial_id order by "
                       "frame_id) from frame")
         steps = sorted(step for step, in steps if step is not None)
-        if view != "window":  # nothing is late where nobody looks on
+        if view != "window":  # without a window no frame is late
             self.assertAlmostEqual(steps[0], 1 / 15, delta=2e-3)
             self.assertAlmostEqual(steps[-1], 1 / 15, delta=2e-3)
         self.assertGreater(steps[len(steps) // 2], 1 / 15 - 2e-3)
@@ -159,16 +159,16 @@ class Combinations(unittest.TestCase):
         # The others differ from "coin" in one number: each with one of the films, drawn by the seed.
         drawn = random.Random(SEED)
         cases += [(name, drawn.choice(FILMED), "headless") for name in RESTING if name != "coin"]
-        if self.screen:  # on a screen one of the others for each
+        if self.screen:  # one of the others with each film
             others = ["simulated", "scripted", *(name for name in RESTING if name != "coin")]
             cases += [(drawn.choice(others), tracker, "window") for tracker in FILMED]
         cases.sort(key=lambda case: case[2] != "window")  # the slow ones first
         self.each(self.meet, cases)
 
-    # What may follow
+    # Sessions that are resumed
 
     def interrupted(self, name, which="all"):
-        """A log whose session has come to its second trial."""
+        """A log whose session ended in its second trial."""
         db = self.new("resumed", name)
         self.heft("run", self.folder / f"{which}.toml", "--participant", "1", "--responder",
                   self.responder("scripted", "half"), "--db", db, "--seed", SEED, "--backup",
@@ -204,10 +204,10 @@ class Combinations(unittest.TestCase):
             cases.append(("window", "coin", "--view", "window"))
         self.each(self.follow, cases)
 
-    # What logs tell of it
+    # Older and changed logs
 
     def test_an_older_log_continues_with_another_simulator(self):
-        for simulator in ("", "bullet-ea", "boxes"):  # "": the one that it was begun with
+        for simulator in ("", "bullet-ea", "boxes"):  # "": the simulator of the log
             with self.subTest(simulator=simulator):
                 db = shutil.copy(GOLDEN_LOGS / "version_5_unfinished.db",
                                  self.folder / f"old-{simulator}.db")
@@ -311,7 +311,7 @@ class Combinations(unittest.TestCase):
         self.heft("replay", "--db", db, "--set", "technique.ratio.gain_of_mass=[[15, 0.5]]")
         self.heft("replay", "--db", db, "--set", "technique.ratio.gain_of_mass=[[0, 1]]", expect=3)
 
-    # What is replayed otherwise
+    # Replays without the session's files
 
     def replay_otherwise(self, tracker, view):
         db = self.new("otherwise", tracker, view)
@@ -322,7 +322,7 @@ class Combinations(unittest.TestCase):
                    for word in self.options(db.stem, tracker, view)]
         self.heft("run", self.folder / "one.toml", "--participant", "1", "--responder", "coin",
                   "--db", db, "--seed", SEED, *options)
-        shutil.rmtree(copy, ignore_errors=True)  # nothing of the session is there any more
+        shutil.rmtree(copy, ignore_errors=True)
         (self.folder / f"{db.stem}.avi").unlink(missing_ok=True)
         nothing = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         for changes in ([], ["--simulator", "bullet-ea"], ["--set", "physics.friction=0.6"]):
@@ -335,7 +335,7 @@ class Combinations(unittest.TestCase):
                  ("hand", "video")] + ([("hand", "window")] if self.screen else [])
         self.each(self.replay_otherwise, cases)
 
-    # What may not meet
+    # Refused combinations
 
     REFUSED = [
         (2, ["--responder", "human", "--tracker", "hand", "--view", "headless"], "window"),
@@ -380,7 +380,7 @@ class Combinations(unittest.TestCase):
         words = [str(word).replace("FOLDER", str(self.folder)) for word in options]
         nothing = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         before = sorted(self.folder.glob("*"))
-        for attempt in range(2):  # a log that is there already stays as it is
+        for attempt in range(2):  # without a log, and with one, which remains unchanged
             done = self.heft("run", self.folder / "one.toml", "--participant", "1", "--db", "a.db",
                              *words, expect=code, environment=nothing, cwd=folder)
             self.assertIn(reason, done.stderr)

@@ -1,4 +1,4 @@
-// The Tobit and the log-normal mean: R's figures, and how often their intervals hold the mean.
+// The Tobit and the log-normal mean: agreement with R, and coverage of their intervals.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -123,7 +123,7 @@ TEST(MeanFigure, IsKnownOnTheSideOnWhichItsPartsAre) {
   EXPECT_FALSE(difference(above, above));
 }
 
-// Of normal figures that a bound cuts.
+// Of the mean of standard normal figures, censored at a ceiling.
 Coverage coverage(int n_people, double ceiling_sd) {
   RandomStream stream(7, "studies", static_cast<std::uint64_t>(n_people));
   Coverage found;
@@ -157,7 +157,7 @@ struct Cut {
   double floor_sd, ceiling_sd;  // of the logarithms, in SD from their mean
 };
 
-// Figures with a median of 1 of which bounds cut so many.
+// Of the mean of log-normal figures with a median of 1, censored at `cut`.
 Coverage log_normal_coverage(int n_people, double log_sd, const Cut& cut) {
   RandomStream stream(8, cut.name, static_cast<std::uint64_t>(n_people));
   Coverage found;

@@ -1,4 +1,4 @@
-"""How the programs and modules are linked: hostile logs, pictures and protocols are opened with them.
+"""Hardening of the programs and modules, which open untrusted logs, pictures and protocols.
 
 Run: python3 tests/install/hardening_test.py BUILD
 """

@@ -194,7 +194,7 @@ TEST_F(DriveTargets, PathGoesToTheNewPose) {
   EXPECT_THAT(targets({InputMode::path}, samples), near({-0.49, -0.48, -0.46, -0.44}));
 }
 
-// The cubic from rest at -.5 to .4 m/s at the end.
+// The middle of the cubic is the mean of both poses plus (v0 - v1) times an eighth of 0.1 s.
 TEST_F(DriveTargets, SmoothBendsAsTheVelocitiesSayAndIsStraightWithoutAny) {
   EXPECT_THAT(targets({InputMode::smooth}, samples), targets({InputMode::path}, samples));
   auto moving = samples;

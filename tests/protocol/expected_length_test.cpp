@@ -8,7 +8,7 @@
 namespace heft {
 namespace {
 
-// PROCEDURES: the paper's staircases take 19 to 21 trials each.
+// The paper's staircases take 19 to 21 trials each.
 TEST(ExpectedLength, OfThePapersStaircases) {
   const Protocol paper = load_protocol(shipped_path("paper"));
   const TrialsByTask trials = expected_trials(paper);

@@ -28,8 +28,8 @@ std::uint64_t any_seed() {
   return *rc::gen::arbitrary<std::uint64_t>();
 }
 
-/// The levels that a procedure presents, with responses `answer(trial)` and `looks` queries in each
-/// trial.
+/// The levels that a procedure presents, with responses `answer()`; each trial's level is queried
+/// `looks` times.
 template <typename Answers>
 std::vector<double> presented(Procedure procedure, std::uint64_t seed, int looks,
                               const Answers& answer) {

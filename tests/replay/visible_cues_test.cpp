@@ -11,7 +11,7 @@ namespace {
 using testing::shipped_protocol;
 using testing::StoredSession;
 
-// Pushes a cube along y with its clone so far behind. @return the frame
+// A frame in which the effector pushes a cube along y, with the clone lag_m behind it.
 DisplayedFrame pushing(double t_s, double effector_y_m, double lag_m, double cube_y_m) {
   DisplayedFrame frame;
   frame.t_s = t_s;
@@ -46,7 +46,7 @@ TEST(VisibleCues, APushHasItsLargestLagAndItsCubeAPath) {
   EXPECT_NEAR(found.mean_end_m(), 0.10, 1e-12);
 }
 
-// After an answer that shuffles or replaces the cubes, which are back in their places at once.
+// An answer that shuffles or replaces the cubes puts them back in their places immediately.
 TEST(VisibleCues, OfCubesWithNewMassesAreTheirOwn) {
   CuesByMass cues;
   {
@@ -90,7 +90,7 @@ TEST(VisibleCues, ACubePutBackHasNotGoneThere) {
   EXPECT_NEAR(cues.at(200).mean_end_m(), 0, 1e-12);
 }
 
-// μ m g / k: twice the stiffness, half the lag, the same grams.
+// The lag is μ m g / k: twice the stiffness gives half the lag, and twice the grams per meter.
 TEST(VisibleCues, AWhatIfShowsLagsBeforeAndAfter) {
   const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
   const auto header = stored.session().row.header;

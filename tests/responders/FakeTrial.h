@@ -1,4 +1,4 @@
-// Runs a responder through whole trials of the fake world, with a fake screen that notes every
+// Runs a responder through whole trials of the fake world, with a fake screen that records every
 // action it does not allow.
 #pragma once
 
@@ -43,7 +43,7 @@ struct Result {
   std::vector<std::string> not_allowed;
 };
 
-/// What an answer says, without its times.
+/// The actions as texts, without their times.
 inline std::vector<std::string> said(const Result& result) {
   std::vector<std::string> all;
   for (const TimedAction& action : result.actions)

@@ -52,7 +52,8 @@ std::unique_ptr<Responder> alike(std::string_view name, std::vector<Parameter> p
   return make(name, 4, std::move(parameters));
 }
 
-// Phi((level / start - fraction) / noise), whatever the masses, and either cube.
+// The share of "different" is Phi((level / start - fraction) / noise), independent of the masses;
+// either cube is chosen.
 TEST(StartAnchored, AnswersByTheShareOfTheStartThatIsLeft) {
   const auto model =
       alike("start_anchored", {{"anchor_fraction", 0.4, {}}, {"anchor_noise", 0.2, {}}});

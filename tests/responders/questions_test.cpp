@@ -1,4 +1,4 @@
-// What models say to questionnaires: something that each question takes, and the same each time.
+// Answers of models to questionnaires: valid for each question, and the same each time.
 #include <gmock/gmock.h>
 
 #include <set>

@@ -161,7 +161,7 @@ RC_GTEST_PROP(Simulated, EndsEveryTaskByAllowedActionsAlone, ()) {
 }
 
 TEST(Simulated, TriesTheIntroductionAgainAfterAnotherLook) {
-  // A mind made of noise is often wrong at first.
+  // With this much noise the first choice is often incorrect.
   const std::vector<Parameter> noise{{"judgment_noise_mm", 50.0, {}}};
   int n_retries = 0;
   for (std::uint64_t seed = 0; seed < 30; ++seed) {

@@ -1,4 +1,4 @@
-// The quick study of the pipeline makes its files; its chain does what a session does.
+// The quick study of the pipeline makes its files; its chain times every stage.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,6 @@ TEST(RecordedTrial, LeavesNothingBehind) {
   EXPECT_FALSE(std::filesystem::exists(trial_folder));
 }
 
-// The stages get times of their own: work was done where there is work to do.
 TEST(Chain, TimesEveryStage) {
   const Apparatus apparatus = bench_apparatus(640);
   const RecordedTrial trial(apparatus, 3);

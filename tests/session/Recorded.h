@@ -1,4 +1,4 @@
-// What a session that was kept in memory holds.
+// Contents of a session that was recorded in memory.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// A program that stands still anywhere in a person's session: the open trial is paused for that
-// time, and voided after a long one. The seed of what failed is printed.
+// The program is suspended at a random moment of a person's session: the open trial is paused for
+// that time, and voided if it is long. Failures print their seed.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

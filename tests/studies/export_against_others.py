@@ -1,7 +1,7 @@
-"""Exports beside other programs, where these are installed: the real bids-validator (npm) accepts
-the BIDS dataset; R with lme4 and ordinal runs analysis.R, and pandas reads the CSV, and both find
-the figures of `heft analyse` and `heft fit`. Debian: r-cran-lme4, r-cran-ordinal, python3-pandas.
-What is not installed is printed, and the test exits 77 if nothing was compared.
+"""Exports compared with other programs, if these are installed: bids-validator (npm) accepts the
+BIDS dataset; R with lme4 and ordinal runs analysis.R, and pandas reads the CSV, and both find the
+figures of `heft analyse` and `heft fit`. Debian: r-cran-lme4, r-cran-ordinal, python3-pandas.
+Missing programs are printed, and the test exits 77 if nothing was compared.
 
 Run: python3 tests/studies/export_against_others.py PATH_TO_HEFT [PARTICIPANTS]
 """
@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 PROTOCOLS = Path(__file__).resolve().parents[2] / "protocols"
-DEBIANS = "/usr/bin/python3"  # whose packages are Debian's
+DEBIANS = "/usr/bin/python3"  # has Debian's packages
 PANDAS = r"""
 import json, sys
 import pandas as pd
@@ -91,7 +91,7 @@ class Comparison:
         print(f"{where}: {self.n_compared - n_before} figures, {self.n_wrong} differ")
 
     def validated(self):
-        """-> whether there is a validator; it must accept names as they are and pseudonyms."""
+        """Validates exports with and without pseudonyms; returns whether a validator is installed."""
         validator = shutil.which("bids-validator") or os.environ.get("HEFT_BIDS_VALIDATOR")
         if not validator:
             print("bids-validator is not here (npm i bids-validator; HEFT_BIDS_VALIDATOR names it)")

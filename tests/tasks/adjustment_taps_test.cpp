@@ -1,5 +1,5 @@
-// Adjustments of people who know which steps they want: what they tapped is what is logged, and no
-// mass changes under the effector.
+// Adjustment by taps: the log has the steps that were tapped, and no mass changes under the
+// effector.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

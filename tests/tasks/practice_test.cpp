@@ -58,7 +58,7 @@ class Answered {
     const bool right = masses_g[1] > masses_g[0];
     return *apply(Action{"select", right == heavier ? 2 : 1}).trial;
   }
-  /// Trials until practice ends, with these answers in turn; the last of them for ever.
+  /// Trials until practice ends, with these answers in turn; the last one is repeated.
   std::vector<TrialRow> practice(std::vector<bool> heavier) {
     std::vector<TrialRow> rows;
     for (std::size_t i = 0; engine_->next().plan && engine_->next().plan->is_practice; ++i)

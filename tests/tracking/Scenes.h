@@ -1,5 +1,5 @@
-// The default apparatus (DESIGN's sheet: A4 board of 6 x 4 tags, box effector with five tags at its
-// tip) and random places for its effector, for tests.
+// The default apparatus (A4 board of 6 x 4 tags, box effector with five tags at its tip) and random
+// poses of its effector, for tests.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,4 @@
-// A second print of the effector's tags lies on the table in view: it is not taken for the
-// effector.
+// A second print of the effector's tags on the table is not taken for the effector.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -48,7 +48,7 @@ TEST(SameDifferent, AnswersGiveThresholdAndCriterionOfDifferencesOfEitherSign) {
   EXPECT_THAT(readable(summary), testing::HasSubstr("Same-different: the 75 % threshold is 51 g"));
 }
 
-// The goodness itself is tested in tests/inference.
+// The goodness of fit itself is tested in tests/inference.
 TEST(SameDifferent, FitsOfConstantStimuliAreJudged) {
   ConstantConfig config;
   config.levels = {0, 60, 120, 180, 240};

@@ -1,5 +1,5 @@
-"""Published experiments as protocols: each is simulated, replayed, analysed, and says what it
-reproduces, what it leaves out and what was checked.
+"""Published experiments as protocols: each is simulated, replayed and analysed, and its comments
+state what it reproduces, what it leaves out and what was checked.
 
 Run: python3 tests/cli/analysis/gallery_test.py PATH_TO_HEFT
 """
@@ -12,7 +12,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from session_harness import PROTOCOLS, SessionTest, main, query
 
 GALLERY = sorted((PROTOCOLS / "examples/gallery").glob("*.toml"))
-# Of the text over the first key.
+# Required in the comments above the first key.
 SAID = ("After:", "Reproduces:", "Leaves out:", "hecked against")
 
 
@@ -46,7 +46,7 @@ class Gallery(SessionTest):
                 self.assertTrue(found["estimates"])
 
     def test_less_movement_seems_heavier(self):
-        """Dominjon et al.'s result, by people who judge by the ratio. They do not see gains above 1."""
+        """Dominjon et al.'s result, by people whose cue is the ratio, which shows no gain above 1."""
         folder = PROTOCOLS / "examples/gallery"
         found, _ = self.analysed(folder / "dominjon_2005.toml", participants=6,
                                  responder=f"simulated:{folder / 'people/ratio.toml'}")

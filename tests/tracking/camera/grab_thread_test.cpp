@@ -1,4 +1,4 @@
-// Grabbing from a device that is not there: a function plays it.
+// LiveCamera with a fake device.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -17,14 +17,13 @@ Image gray(std::uint8_t level) {
   return image;
 }
 
-// A device whose pictures the test gives by hand; it answers when there is one, or "none at
-// present" soon, as a driver does.
+// A device with pictures from the test; without one it returns none immediately, as a driver does.
 class FakeDevice {
  public:
   void give(std::uint8_t level, double capture_s) { push({gray(level), capture_s}); }
   void fail() { push({}); }
 
-  // All that was given has been taken and put down: the thread asks for more.
+  // Waits until the thread has taken every given picture and asks for more.
   void wait_until_taken() {
     while (!is_empty()) std::this_thread::yield();
     const int asked = n_asked_;

@@ -17,7 +17,7 @@ double covered_from(double edge_px, double at_px) {
   return std::erfc((edge_px - at_px) / (std::sqrt(2.0) * blur_px)) / 2;
 }
 
-// A dark square on white, and a bar as dark over its upper and its lower edge.
+// A dark square on white, with equally dark bars over its upper and its lower edge.
 TEST(MeasuredTag, EdgesThatWereNotFoundLookAsTheOthersDo) {
   const TagPattern pattern = tag_pattern("tag36h11", 0);
   const double side_px = side_px_of_cell * pattern.border_cells, low = margin_px,
@@ -51,8 +51,8 @@ TEST(MeasuredTag, EdgesThatWereNotFoundLookAsTheOthersDo) {
   EXPECT_EQ(measure_tag(image, camera, pattern, corners_px, whole).quality, 0);
 }
 
-// A dark square, blurred more from left to right than up and down. Where that is known, its edges
-// are where they were, in one fit each; where it has changed since, they are not far.
+// A dark square, blurred more from left to right than up and down. With the known blur, one fit for
+// each edge gives the same corners; with another blur, nearly the same.
 TEST(MeasuredTag, IsMeasuredAgainAsBlurredAsItWas) {
   const TagPattern pattern = tag_pattern("tag36h11", 0);
   const double side_px = side_px_of_cell * pattern.border_cells, low = margin_px,

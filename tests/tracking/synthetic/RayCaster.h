@@ -1,7 +1,7 @@
-// A second camera, to hold the tracker to what cameras do and not to what the synthetic one does:
-// rays through pixels at scattered places, shaded faces of a box, a shadow's edge, and a sensor
-// with a tone curve of its own, a color mosaic and sharpening. Shares nothing with the synthetic
-// camera but the lens and the tags' cells. Slow.
+// A second camera, to test the tracker independently of the synthetic one: rays through pixels at
+// scattered places, shaded faces of a box, a shadow's edge, and a sensor with any tone curve, a
+// color mosaic and sharpening. Shares only the lens and the tags' cells with the synthetic camera.
+// Slow.
 #pragma once
 
 #include <algorithm>
@@ -18,14 +18,14 @@
 
 namespace heft {
 
-/// What is wrong with a camera and its light.
+/// Imperfections of a camera and its light.
 struct CameraFaults {
   std::function<double(double light)> tone;  ///< 0...1 of light 0...; none: sRGB
   double blur_px = 0.6, noise = 3, exposure = 1;
-  double sharpening = 0;         ///< of the stored values: what a blur of 1 px takes off, times it
+  double sharpening = 0;         ///< amount of an unsharp mask of 1 px on the stored values
   bool mosaic = false;           ///< each pixel has one color, the others are interpolated
-  std::optional<double> shadow;  ///< light that is left beyond an edge through the effector
-  double side_light = 0.5;       ///< how differently lit the faces of the box are
+  std::optional<double> shadow;  ///< fraction of light beyond an edge through the effector
+  double side_light = 0.5;       ///< fraction of the box's light that depends on the face's normal
   double readout_s = 0;
 };
 
@@ -71,7 +71,7 @@ class RayCaster {
     return developed(light(board_from_effector, t_s, faults, number), faults, number);
   }
 
-  /// What comes through the lens: rays_across values each way a pixel.
+  /// The light behind the lens: rays_across values per pixel in each direction.
   std::vector<float> light(const Path& board_from_effector, double t_s, const CameraFaults& faults,
                            std::uint64_t number) const {
     const Intrinsics& camera = apparatus_.camera;
@@ -222,7 +222,7 @@ class RayCaster {
   }
 
  public:
-  /// The sensor's part.
+  /// The sensor: exposure, vignetting, tone curve, noise, mosaic and sharpening.
   Image developed(const std::vector<float>& light, const CameraFaults& faults,
                   std::uint64_t number) const {
     const int width = apparatus_.camera.width_px, height = apparatus_.camera.height_px;
