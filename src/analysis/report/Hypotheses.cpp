@@ -195,7 +195,7 @@ std::string threshold_figures(const std::vector<const StudyEstimate*>& threshold
   return text;
 }
 
-// Of the growth with the reference of thresholds that are comparable.
+// The exponent of thresholds that are comparable with the paper's.
 const StudyEstimate& exponent_of(const Summary& summary) {
   return *papers(summary, "threshold_exponent").front();
 }
@@ -220,7 +220,7 @@ Judgment judge_rising(const Summary& summary) {
   return {HypothesisVerdict::inconclusive, figures + ": the interval contains 0"};
 }
 
-// Proportional: the exponent is 1, within what makes a factor of 1.5 from a reference to the next.
+// Proportional: the exponent is 1, with a margin of a factor of 1.5 from one reference to the next.
 Judgment judge_proportional(const Summary& summary) {
   const auto thresholds = papers(summary, "threshold_75");
   if (const std::string why = why_not_comparable(thresholds); !why.empty())
