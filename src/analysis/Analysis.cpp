@@ -12,7 +12,7 @@
 namespace heft {
 
 namespace {
-/// Gives each session in turn, as often as it is called.
+/// Visits all sessions in order; can be called repeatedly.
 using EachSession = std::function<void(const std::function<void(const SessionData&)>&)>;
 
 SessionSummary summary_of(const SessionData& data) {
@@ -29,7 +29,7 @@ SessionSummary summary_of(const SessionData& data) {
   return summary;
 }
 
-// Of all participants, the excluded too.
+// Data of all participants, with excluded ones.
 struct EveryoneCollector {
   ParticipantsCollector participants;
   PlanCollector plan;
@@ -96,7 +96,7 @@ struct IncludedCollector {
   }
 };
 
-// Who is excluded is known at the end; only where there are such, sessions are read again.
+// Exclusion is known only after the last session; if someone is excluded, sessions are read again.
 IncludedCollector counted_of(IncludedCollector&& all, const EachSession& each,
                              std::span<const ParticipantRow> participants) {
   if (std::ranges::none_of(participants, &ParticipantRow::excluded)) return std::move(all);

@@ -16,7 +16,7 @@ struct LoggedSession {
   SessionRow row;
   std::vector<LoggedSetup> setups;  ///< at least one
   SessionConfig setup;              ///< the last one
-  /// From the session's protocol text and settings, with the simulator of `setup`.
+  /// The session's protocol text with its settings, and the simulator of `setup`.
   std::shared_ptr<const Protocol> protocol;
 
   /// The protocol with the configuration in effect in a trial.

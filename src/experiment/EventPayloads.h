@@ -165,7 +165,7 @@ struct CubeTouch {
   static constexpr EventType event_type{"cube_contact", EventRole::attempt};
   int slot = 0;
   std::optional<double> ended_after_s{};  ///< none: the touch begins
-  /// Of an ended touch, over its frames: largest displacement of the effector from its position in
+  /// For an ended touch, over its frames: largest displacement of the effector from its position in
   /// the first frame, and largest distance between clone and effector.
   std::optional<double> max_push_displacement_m{}, peak_lag_m{};
   static void event_columns(auto& touch, auto& row) {
@@ -236,7 +236,7 @@ struct Unblinding {
 struct CameraReport {
   static constexpr EventType event_type{"camera", EventRole::recorded};
   int n_shown = 0, n_dropped = 0, n_late = 0;
-  /// Of those shown, with a second print of a tag in view; none: of a program that did not count.
+  /// Shown pictures with a second print of a tag in view; none: the program did not count them.
   std::optional<int> n_doubled{};
   static void event_columns(auto& report, auto& row) {
     row.json("shown", report.n_shown).json("dropped", report.n_dropped);

@@ -1,7 +1,7 @@
-// Files of answers and their fits: CSV with a header. Psychometric: columns x, n_positive and n, or
-// a row a trial with x and response (0 or 1). Indecision: level_g and answer (comparison,
-// reference, none). Columns stand in any order, and others may stand beside them; `person` or
-// `participant` says who answered.
+// Files of answers and their fits: CSV with a header, columns in any order, others ignored.
+// Psychometric: columns x, n_positive and n, or a row a trial with x and response (0 or 1).
+// Indecision: level_g and answer (comparison, reference, none). `person` or `participant` names who
+// answered.
 #pragma once
 
 #include <optional>

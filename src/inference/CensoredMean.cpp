@@ -18,7 +18,7 @@ double log_normal_cdf(double z) {
   return -z * z / 2 - std::log(-z) - 0.9189385332046727;  // log sqrt(2 pi); Mills' ratio
 }
 
-// Where a function with one hill is highest.
+// The maximum of a function with a single local maximum.
 template <typename Function>
 double highest(Function function, double low, double high) {
   constexpr int bits = std::numeric_limits<double>::digits / 2;  // beyond, rounding dominates
@@ -66,7 +66,7 @@ class Tobit {
     return along(highest(along, -4.0, 6.0));
   }
 
-  // From the best target outwards, to where the profile has fallen by so much.
+  // The value beyond `best` at which the profile has fallen by `drop`.
   double end(double best, double drop, double direction) const {
     const double least = profile(best) - drop;
     double inside = 0, outside = 0.5;
@@ -95,8 +95,8 @@ double allowed_drop(double n_exact) {
   const double t = student_t_quantile(n_exact - 1);
   return n_exact / 2 * std::log1p(t * t / (n_exact - 1));
 }
-// The logarithms. Those of 0 and less lie below the smallest positive value; that one lies above 0
-// says nothing.
+// Logarithms. A value of 0 or less counts as below the smallest positive one; if it is censored
+// above, it is left out.
 std::vector<CensoredValue> logarithms(std::span<const CensoredValue> values) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const CensoredValue& one : values)
@@ -121,7 +121,7 @@ std::optional<CensoredMean> of_logarithms(double log_mean, double sigma, Interva
   return found;
 }
 
-// For values that are exact for more than a half.
+// Requires more than half of the values to be exact.
 std::optional<CensoredMean> tobit_mean(std::span<const CensoredValue> values,
                                        const std::vector<double>& exact, FigureModel model) {
   const double center = *mean(exact), scale = *sample_sd(exact);

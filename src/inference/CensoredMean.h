@@ -44,7 +44,7 @@ struct CensoredMean {
 std::optional<CensoredMean> censored_mean(std::span<const CensoredValue> values, int n_missing = 0,
                                           FigureModel model = FigureModel::normal);
 
-/// Which mean of several figures is given.
+/// Kind of mean of several figures.
 enum class MeanKind { none, mean, tobit_mean, log_normal_mean };
 template <>
 struct EnumNames<MeanKind> {
@@ -63,15 +63,15 @@ struct FigureSummary {
 FigureSummary summarize_figures(std::span<const CensoredValue> values, int n_missing,
                                 FigureModel model = FigureModel::normal);
 
-/// The mean of one person's figures. None where any of them is unknown, or one is known to lie
-/// above and one below what it gives.
+/// The mean of one person's figures. None if one of them is unknown, or if one is censored above
+/// and another one below.
 std::optional<CensoredValue> mean_figure(std::span<const std::optional<CensoredValue>> figures);
 
-/// None as for the mean.
+/// First minus second; none as for the mean.
 std::optional<CensoredValue> difference(const std::optional<CensoredValue>& first,
                                         const std::optional<CensoredValue>& second);
 
-/// Whether so few of them are exact that no mean may be given: half or fewer.
+/// Whether no mean may be given: half or fewer of the values are exact.
 bool mostly_censored(std::span<const CensoredValue> values, int n_missing);
 
 }  // namespace heft

@@ -59,7 +59,8 @@ std::string too_little_chosen(const AnswersByLevel& answers) {
 }
 
 namespace {
-// Of one level where only the answers first...last are given, beyond the least of each.
+// Largest log likelihood of one level's answers if the answers outside first...last have their
+// smallest probabilities.
 double log_likelihood_of(const std::array<double, 3>& n, std::span<const double> least,
                          std::size_t first, std::size_t last) {
   std::array<double, 3> share{};
@@ -80,7 +81,8 @@ double log_likelihood_of(const std::array<double, 3>& n, std::span<const double>
 }
 }  // namespace
 
-// From level to level: the best so far where the last answer given is the k-th.
+// Dynamic programming over ascending levels; best[k]: the largest log likelihood so far if the last
+// answer that is given at this level is k.
 double log_likelihood_of_steps(const AnswersByLevel& answers, std::span<const double> least) {
   constexpr double none = -std::numeric_limits<double>::infinity();
   std::array<double, 3> best{0, none, none};

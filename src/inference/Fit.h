@@ -1,6 +1,6 @@
-// What answers at several levels say of the person who gave them: a psychometric function, or the
-// three-way choice with indecision, by maximum likelihood. An estimate that is not identifiable is
-// not given, and `why` says what is missing.
+// Maximum-likelihood fits of answers at several levels: psychometric functions, and the three-way
+// choice of the indecision model. An estimate that is not identifiable is not given, and `why` has
+// the reason.
 #pragma once
 
 #include <array>
@@ -62,12 +62,12 @@ Fit fit_psychometric(const AnswersByLevel& answers, const FitOptions& options);
 /// others stay where they exist.
 Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options);
 
-/// Of "same" (first) and "different" answers to two stimuli that differ by a level of either sign:
-/// the indecision model without bias, where both choices count as "different" (the differencing
-/// model of same-different tasks: Macmillan & Creelman 2005, ch. 9). sensitivity, indecision,
-/// lapse, and threshold_75_g, that of a forced choice, on which the criterion has no influence.
-/// @param lapse rate of answers that are a coin
-/// Identifiable: as fit_indecision.
+/// Fits "same" (first) and "different" answers to two stimuli that differ by a level of either
+/// sign: the indecision model without bias, where both choices count as "different" (the
+/// differencing model of same-different tasks: Macmillan & Creelman 2005, ch. 9). Parameters:
+/// sensitivity, indecision, lapse, and threshold_75_g, that of a forced choice, which does not
+/// depend on the criterion. Identifiable as fit_indecision().
+/// @param lapse rate of random answers, each of the two with probability 1/2
 Fit fit_same_different(const AnswersByLevel& answers, double lapse);
 
 /// The lapse rate where the answers of too few people would have to identify it: a single lapse
@@ -80,9 +80,10 @@ struct ForcedChoiceFit {
   std::string why;                     ///< there is no threshold; empty: there is
 };
 
-/// Of choices of the reference (first) and the comparison, by their difference, with fixed_lapse.
+/// Fits choices of the reference (first) and the comparison, by their difference, with fixed_lapse.
 /// With levels of both signs the curve rises from 0 to 1: its center is the point of subjective
-/// equality, and its spread the noise. Without, from 1/2: its center is the threshold.
+/// equality, and its spread the noise. With positive levels only it rises from 1/2: its center is
+/// the threshold.
 ForcedChoiceFit fit_forced_choice(const AnswersByLevel& answers);
 
 /// Minimum number of trials: chi-square intervals do not hold for fewer.
@@ -121,7 +122,7 @@ double largest_level_of(const AnswersByLevel& answers);
 /// Why no model can be fitted: "there are no trials", "there is one level"... Empty: one can.
 std::string too_little(const AnswersByLevel& answers);
 
-/// As too_little, for choices (reference, none, comparison; or left, none, right).
+/// As too_little(), for choices (reference, none, comparison; or left, none, right).
 std::string too_little_chosen(const AnswersByLevel& answers);
 
 /// The limit of the log likelihood as the curves become infinitely steep: the boundary between two

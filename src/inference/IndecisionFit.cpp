@@ -15,8 +15,8 @@
 namespace heft {
 
 namespace {
-// Only of answers that were given: most levels of a staircase have one answer alone, and the
-// others' probabilities would cost as much.
+// Probabilities of the answers that were given only: most levels of a staircase have one answer,
+// and the others' probabilities would take as long.
 IndecisionShares shares_of_given(const IndecisionParameters& parameters,
                                  const LevelAnswers& answers) {
   if (answers.n[none_answer] > 0) return indecision_shares(parameters, answers.level);
@@ -79,8 +79,8 @@ constexpr std::array<const char*, 4> indecision_names{"sensitivity", "indecision
 
 constexpr double most_free_lapse = 0.5;
 
-/// From grams to where the search counts levels: from their mean, so that levels far from 0 don't
-/// make sensitivity and bias as good as one, and in units of the furthest.
+/// The search's axis of levels: from their mean, so that sensitivity and bias are not collinear if
+/// levels are far from 0, and in units of the largest distance from it.
 struct LevelAxis {
   explicit LevelAxis(const AnswersByLevel& answers) {
     const double n_trials = trials_in(answers);
@@ -89,8 +89,8 @@ struct LevelAxis {
                                        std::abs(answers.rbegin()->first - mean_g));
     if (furthest_g > 0) unit_g = furthest_g;
   }
-  /// Without the last digits, which an origin far away takes: where there are several hills, or the
-  /// top is at infinity, they decide where a search ends.
+  /// Rounded, because a distant origin changes the last digits: with several local maxima, or one
+  /// at infinity, they decide where a search ends.
   double operator()(double level_g) const {
     constexpr double steps = 1LL << 33;
     return std::round((level_g - mean_g) / unit_g * steps) / steps;
@@ -105,7 +105,7 @@ std::vector<LevelAnswers> levels_of(const AnswersByLevel& answers, const LevelAx
   return levels;
 }
 
-// Sensitivity and bias are on the axis here: bias is what is felt at the mean level.
+// Sensitivity and bias are on the axis: bias is the percept at the mean level.
 double log_likelihood(std::span<const LevelAnswers> levels, const Parameters& at,
                       Derivatives* derivatives) {
   const IndecisionParameters parameters{at[sensitivity], at[indecision], at[bias], at[lapse]};
@@ -129,7 +129,7 @@ double log_likelihood(std::span<const LevelAnswers> levels, const Parameters& at
   return sum;
 }
 
-// Where few of the levels lie between, on the axis.
+// At most four places between levels, on the axis.
 std::vector<double> cuts_between(const AnswersByLevel& answers, const LevelAxis& axis) {
   constexpr std::size_t most = 4;
   std::vector<double> between;
@@ -142,8 +142,8 @@ std::vector<double> cuts_between(const AnswersByLevel& answers, const LevelAxis&
   return few;
 }
 
-// As good as steps, with the criteria between levels: there what is flat leads nowhere, and hills
-// are not found from afar.
+// Nearly steps, with the criteria between levels: searches from afar may end in flat parts or at
+// other local maxima.
 std::vector<Parameters> steep_starts(const AnswersByLevel& answers, const LevelAxis& axis) {
   constexpr double steep = 40;
   std::vector<Parameters> all;

@@ -34,14 +34,15 @@ Parameters Likelihood::within_bounds(Parameters at) const {
   return at;
 }
 
-// Whether no bound stops a parameter.
+// Whether no bound stops a step uphill along the parameter.
 bool Likelihood::can_climb_along(Eigen::Index i, const Parameters& at) const {
   const double slope = derivatives_.gradient[i];
   return (at[i] > bounds(i).low || slope > 0) && (at[i] < bounds(i).high || slope < 0);
 }
 
-// Newton's. Where the likelihood bends upwards it goes as far as if it bent down as much, so that
-// it always leads uphill. What can't move is taken out of the equations, and stays to the bit.
+// Newton's step. Negative eigenvalues of the information are replaced by their absolute values, so
+// that the step always leads uphill. Parameters that cannot move are left out of the equations and
+// keep their exact values.
 Parameters Likelihood::step_against(const Parameters& slope, const Parameters& at,
                                     Eigen::Index held) const {
   Parameters step = slope;
@@ -179,7 +180,7 @@ Parameters Likelihood::in_proportion(Parameters start, Eigen::Index held, double
   return start;
 }
 
-// Climbs from the likeliest starts: the very likeliest may stand on the wrong hill.
+// Climbs from the three likeliest starts: the likeliest one may lead to a lower local maximum.
 Maximum Likelihood::profile_from_anywhere(Eigen::Index held, double held_value,
                                           const Parameters& last) {
   if (has_one_maximum()) return nothing();
@@ -200,7 +201,7 @@ Maximum Likelihood::profile_from_anywhere(Eigen::Index held, double held_value,
   return best;
 }
 
-// From the observed information. 0 where there is none.
+// From the observed information. 0 if there is none.
 constexpr double singular = 1e-7;  // of its eigenvalues, where each parameter has the same scale
 
 Parameters Likelihood::standard_errors(const Parameters& at) {
@@ -219,8 +220,8 @@ Parameters Likelihood::standard_errors(const Parameters& at) {
   const Eigen::SelfAdjointEigenSolver<Curvature> solver(scale.asDiagonal() * information *
                                                         scale.asDiagonal());
   const Parameters& values = solver.eigenvalues();
-  // What the answers leave open, such as a criterion without answers on one side
-  // of, leaves those alone open that move with it.
+  // A direction without information, such as a criterion with answers on one side of it only, makes
+  // only the parameters in that direction unknown.
   const Eigen::ArrayXd open = (values.array() <= singular * values[n - 1]).cast<double>();
   const auto shares = solver.eigenvectors().array().square().matrix();
   const Parameters is_open = shares * open.matrix();

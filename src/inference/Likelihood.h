@@ -1,5 +1,5 @@
-// A log likelihood as a landscape: its maxima, with one parameter held or none. What
-// MaximumLikelihood.h and its intervals are made with.
+// Local and global maxima of a log likelihood, with one parameter held or none. Used by
+// MaximumLikelihood.cpp for estimates and intervals.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,8 +27,8 @@ struct Accuracy {
   double value = 0;  ///< by which values at different places may be wrong
 };
 
-/// A log likelihood within bounds, and the searches for its maximum. What it refers to must outlive
-/// it.
+/// A log likelihood within bounds, and the searches for its maximum. Constructor arguments must
+/// outlive it.
 class Likelihood {
  public:
   Likelihood(const LogLikelihood& function, const std::vector<ParameterBounds>& bounds,
@@ -47,16 +47,15 @@ class Likelihood {
   /// Whether one group of starts is enough to find the maximum.
   bool has_one_maximum() const { return starts_.size() == 1; }
   Maximum maximum();
-  /// To the nearest maximum; one parameter may be held.
+  /// The local maximum reached from a point. @param held index of a fixed parameter; -1: none
   Maximum climb(Parameters from, Eigen::Index held = -1);
-  /// The same where values at different places are inexact: to where the derivatives say that the
-  /// maximum is.
+  /// The same if values at different points are inexact: follows the derivatives instead.
   Maximum climb_by_score(Parameters from, Eigen::Index held, Accuracy accuracy);
-  /// With one parameter held. @param from where to start for the others
+  /// The maximum with one parameter held. @param from start of the others
   Maximum profile(Eigen::Index held, double held_value, Parameters from);
   /// The better of the maxima from two starts.
   Maximum profile(Eigen::Index held, double held_value, Parameters from, Parameters or_from);
-  /// From all starts, and from the last maximum with its parameters scaled in proportion.
+  /// The best from all starts, and from the last maximum with its parameters scaled in proportion.
   Maximum profile_from_anywhere(Eigen::Index held, double held_value, const Parameters& last);
   /// 0: at a bound, or unknown; infinite: the answers leave it open.
   Parameters standard_errors(const Parameters& at);
@@ -64,7 +63,7 @@ class Likelihood {
   Parameters tangent(const Parameters& maximum, Eigen::Index along);
 
  private:
-  /// @return whether it got there
+  /// @return whether it converged
   bool climb_by_newton(Maximum& from, Eigen::Index held);
   Maximum climb_by_nlopt(const Maximum& from, Eigen::Index held);
   Parameters step_against(const Parameters& slope, const Parameters& at, Eigen::Index held) const;
@@ -81,7 +80,7 @@ class Likelihood {
   const Starts& starts_;
   Eigen::Index n_;
   Derivatives derivatives_;
-  // What NLopt's search is at; its objective only sees what is free.
+  // The point of NLopt's search, whose objective only has the free parameters.
   Parameters at_;
   Maximum best_;
   std::vector<Eigen::Index> free_;

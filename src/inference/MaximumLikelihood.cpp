@@ -8,8 +8,8 @@
 namespace heft {
 
 namespace {
-// One side of a profile interval: walks out from the estimate until the likelihood has fallen far
-// enough, and back to where it just has.
+// One side of a profile interval: steps outward from the estimate until the likelihood has fallen
+// far enough, then finds the end between the last two steps.
 class IntervalEnd {
  public:
   IntervalEnd(Likelihood& likelihood, const Maximum& best, Eigen::Index parameter, double direction)
@@ -22,18 +22,18 @@ class IntervalEnd {
   void search(double first_step);
 
   std::optional<double> end() const { return end_; }
-  // Whether all the way to infinity nothing was lost.
+  // Whether the likelihood does not fall up to the parameter's bound.
   bool is_flat() const {
     return !end_ && last_.log_likelihood > best_.log_likelihood - same_log_likelihood;
   }
-  // Better than the estimate, if that was met on the way.
+  // A point likelier than the estimate, if the search met one.
   const Maximum& likeliest() const { return likeliest_; }
 
  private:
   bool is_too_far(double to) const;
   // The root of the fall is nearly a straight line for any likelihood.
   double excess(const Maximum& there) const;
-  // Where the fall is just enough, by regula falsi (its Illinois variant).
+  // The end between two points, by regula falsi (Illinois variant).
   double between(Maximum inner, Maximum outer);
 
   Likelihood& likelihood_;
@@ -47,7 +47,7 @@ class IntervalEnd {
 void IntervalEnd::search(double first_step) {
   constexpr int most_doublings = 14;
   const double center = best_.at[parameter_], beyond = std::abs(limit_ - center);
-  // Doubled each time, and never beyond twice the last place: the others have to follow.
+  // Steps double, but not beyond twice the last position, so that the other parameters can follow.
   double distance = std::min(first_step, (1 + std::abs(center)) / 2);
   Parameters change = likelihood_.tangent(best_.at, parameter_);
   for (int n_doublings = 0; n_doublings < most_doublings && !end_;) {
@@ -73,7 +73,8 @@ void IntervalEnd::search(double first_step) {
   }
 }
 
-// From afar towards 0, where there may be hills: halfway at most, so that the others can follow.
+// Steps from far away towards 0, where there may be several local maxima, are limited to half the
+// distance.
 bool IntervalEnd::is_too_far(double to) const {
   const double here = last_.at[parameter_];
   return !likelihood_.has_one_maximum() && direction_ * here < -1 &&
@@ -93,7 +94,7 @@ double IntervalEnd::between(Maximum inner, Maximum outer) {
     const double here = to - at_outer * (to - from) / (at_outer - at_inner);
     const double part = (here - from) / (to - from);
     Maximum middle = likelihood_.profile(parameter_, here, inner.at + part * (outer.at - inner.at));
-    // Between two that stand on different hills neither's way leads to the higher one for sure.
+    // If the two ends belong to different local maxima, the higher one may be reached from either.
     if (!likelihood_.has_one_maximum())
       middle = likelier(middle, likelihood_.profile(parameter_, here, inner.at, outer.at));
     else if (middle.log_likelihood < outer.log_likelihood)  // got stuck
@@ -111,7 +112,7 @@ double IntervalEnd::between(Maximum inner, Maximum outer) {
   return outer.at[parameter_];
 }
 
-// @return whether no value is likelier than the estimate; otherwise that is put in its place
+// @return false if a likelier point than `best` was found, which then replaces it
 bool fit_parameters(Likelihood& likelihood, Maximum& best,
                     std::vector<LikelihoodParameter>& parameters) {
   const Parameters errors = likelihood.standard_errors(best.at);

@@ -20,7 +20,7 @@ AnswersByLevel together(const AnswersByPerson& people) {
   return sum;
 }
 
-// In units of the largest level; mirrored: as if larger levels had been answered as smaller.
+// Levels in units of the largest one; mirrored: with opposite sign.
 std::vector<LevelAnswers> on_scale(const AnswersByLevel& by_level, double largest_g,
                                    bool mirrored = false) {
   std::vector<LevelAnswers> answers;
@@ -48,8 +48,9 @@ double place_of(double sensitivity) {
 }
 using Profile = std::array<double, n_places>;
 
-// One person's log likelihood of sensitivities, as in a population that has only this one, whatever
-// the criterion of others with it. From the population's own outwards, until it is far less.
+// One person's log likelihood by sensitivity, if all people of the population had it. The
+// criterion's distribution does not depend on it. Steps outward from the population's sensitivity
+// until the likelihood is negligible.
 Profile profile_of(const AnswersByLevel& by_level, double largest_g, Parameters population) {
   constexpr double none = -9;  // log of a sensitivity that is as good as 0
   constexpr double far_less = 15;
@@ -77,7 +78,7 @@ Profile profile_of(const AnswersByLevel& by_level, double largest_g, Parameters 
   return profile;
 }
 
-// The place of the highest, by the parabola through the three highest.
+// The place of the maximum, by a parabola through the three highest values.
 double top_of(const Profile& values) {
   const auto best = std::ranges::max_element(values);
   const double place = static_cast<double>(best - values.begin());
@@ -86,7 +87,7 @@ double top_of(const Profile& values) {
   return bend < 0 ? place + (before - after) / (2 * bend) : place;
 }
 
-// Where the likelihood has fallen far enough; none: nowhere on this side.
+// The place at which the likelihood has fallen by `drop`; none: it never does on this side.
 std::optional<double> end_of(const Profile& values, double drop, std::ptrdiff_t direction) {
   const auto best = std::ranges::max_element(values);
   const double least = *best - drop;
@@ -100,8 +101,9 @@ std::optional<double> end_of(const Profile& values, double drop, std::ptrdiff_t 
   return std::nullopt;
 }
 
-// As far as Student's t goes instead of the normal distribution, with a degree of freedom less for
-// sensitivity, criterion and bias each: of 30 trials the chi-square quantile holds too little.
+// The fall of the log likelihood for Student's t instead of the normal distribution, with three
+// degrees of freedom less, for sensitivity, criterion and bias: with 30 trials, intervals by the
+// chi-square quantile cover too little.
 double drop_of(double n_trials) {
   const double t = student_t_quantile(std::max(n_trials - 3, 1.0), confidence_level);
   return t * t / 2;
@@ -142,7 +144,7 @@ MixedFigure figure(double log_value, const PopulationLikelihood::ProfileInterval
   return found;
 }
 
-// Of one person alone: where the likelihood itself says.
+// A single person: the fit of their answers alone.
 void put_single(MixedFit& found, const AnswersByLevel& answers) {
   const Fit fit = fit_indecision(answers, {.lapse = fixed_lapse});
   const auto put = [&](std::optional<MixedFigure>& into, const char* name) {
@@ -156,8 +158,8 @@ void put_single(MixedFit& found, const AnswersByLevel& answers) {
   if (found.identifiable()) put(found.threshold_75_g, "threshold_75_g");
 }
 
-// Of the sensitivity per g. If none is likely, the answers may go against the levels: then as if
-// larger levels had been answered as smaller there is one.
+// Interval of the sensitivity per g. If a sensitivity of 0 is likely, answers may be opposite to
+// the levels: then the fit of the mirrored answers decides whether it is negative.
 SensitivityRange range_of(const PopulationLikelihood::ProfileInterval& logs,
                           const AnswersByPerson& people, double largest_g) {
   const auto per_g = [largest_g](const std::optional<double>& log_sensitivity) {
@@ -171,7 +173,7 @@ SensitivityRange range_of(const PopulationLikelihood::ProfileInterval& logs,
   return {std::nullopt, per_g(logs.high)};
 }
 
-// Of the infinitesimal jackknife.
+// Standard error by the infinitesimal jackknife.
 double jackknife_error(const std::vector<double>& influences) {
   const auto n = static_cast<double>(influences.size());
   double square = 0;
@@ -197,7 +199,7 @@ struct PopulationEstimate {
   std::vector<ThresholdAtLapse> at_lapse;
 };
 
-// The likelihood, which is large, is let go of.
+// The likelihood, which takes much memory, exists in this function only.
 PopulationEstimate estimate_population(const AnswersByPerson& people, double largest_g) {
   PopulationLikelihood likelihood(on_scale(people, largest_g));
   PopulationEstimate found{likelihood.maximum(), {}, {}, {}, {}, {}};

@@ -29,15 +29,16 @@ namespace heft {
 /// Answers by signed level in g, by participant: reference, none, comparison; or left, none, right.
 using AnswersByPerson = std::map<std::string, AnswersByLevel>;
 
-/// A positive figure of a fit; an end that is none is infinite or 0.
+/// A positive figure of a fit. low none: 0; high none: infinite.
 struct MixedFigure {
   double value = 0;
   std::optional<double> low{}, high{};
 };
 
-/// One person's sensitivity per g, with criterion and side bias integrated over their distribution
-/// and the lapse rate that all share. Ends where the likelihood has fallen as for a 95 % profile
-/// interval, with Student's t for the number of trials; none: it never does. May be negative.
+/// One person's sensitivity per g; it may be negative. Criterion and side bias are integrated over
+/// their distribution, and the lapse rate is that of all. The ends are where the likelihood has
+/// fallen as for a 95 % profile interval, with Student's t for the number of trials; none: it never
+/// does.
 struct OwnSensitivity {
   double value = 0;
   std::optional<double> low{}, high{};
@@ -59,7 +60,7 @@ struct MixedFit {
   std::optional<MixedFigure> indecision;
   std::optional<MixedFigure> lapse;  ///< high is none: rates up to .2 are likely
   std::optional<double> sd_log_sensitivity, sd_log_indecision, correlation, sd_bias;
-  /// Where the lapse rate is not identifiable: thresholds for rates of 0, .02 and .05.
+  /// Thresholds for rates of 0, .02 and .05 if the lapse rate is not identifiable; otherwise empty.
   std::vector<ThresholdAtLapse> at_lapse;
   /// By participant; empty for fewer than least_people.
   std::map<std::string, OwnSensitivity> people;
@@ -68,14 +69,14 @@ struct MixedFit {
   std::map<std::string, double> influence;
 
   bool identifiable() const { return why.empty(); }
-  /// Null: too few people to draw on.
+  /// Null: fewer than least_people.
   const OwnSensitivity* own(const std::string& participant) const;
   /// sensitivity, indecision, lapse, sd_log_sensitivity, sd_log_indecision, correlation, sd_bias
   /// and threshold_75_g, without standard errors.
   Fit summary() const;
 };
 
-/// Identifiable: the interval of the sensitivity lies above 0 and is bounded, and that of the
+/// Identifiable if the interval of the sensitivity is above 0 and bounded, and that of the
 /// threshold ends at most at twice the largest level.
 MixedFit fit_mixed_indecision(AnswersByPerson people);
 
@@ -86,8 +87,8 @@ struct OwnThreshold {
   std::string why;  ///< not identifiable; empty: it is
 };
 
-/// @param own of the same answers among several people's; null: too few people, then the fit of
-///   these answers alone with a lapse rate of fixed_lapse
+/// @param own the person's sensitivity in the mixed fit; null: too few people, then these answers
+///   are fitted alone with fixed_lapse
 OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* own);
 
 /// A weighted sum of the log thresholds of several fits, over the people in any of them. The

@@ -25,8 +25,8 @@ QuadratureRule normal_quadrature(Eigen::Index n) {
 }
 
 // Nodes in three dimensions, and log(weight / standard normal density), so that a sum over
-// exp(log_weight) f(z) is the integral of f. None is left out, however little it weighs: where
-// answers say little, second derivatives are small differences of large sums.
+// exp(log_weight) f(z) is the integral of f. No node is left out for a small weight: if answers
+// have little information, second derivatives are small differences of large sums.
 struct StandardNodes {
   Eigen::Matrix3Xd z;
   Eigen::ArrayXd log_weight;
@@ -97,7 +97,7 @@ struct Distribution {
         log_density_at_mean(std::log(kappa) / 2 - std::log(sd_s * sd_t * sd_b) -
                             1.5 * std::log(2 * std::numbers::pi)) {}
 
-  // Of each row.
+  // Standardizes each row.
   Eigen::ArrayX3d standardized(const Eigen::ArrayX3d& effects) const {
     Eigen::ArrayX3d z(effects.rows(), 3);
     z << (effects.col(0) - mean_s) / sd_s, (effects.col(1) - mean_t) / sd_t, effects.col(2) / sd_b;
@@ -208,7 +208,7 @@ PersonLikelihood person_likelihood(std::span<const LevelAnswers> answers,
   return sum;
 }
 
-// Newton's step; where the function bends upwards, as far as if it bent down as much.
+// Newton's step, with the absolute values of the Hessian's eigenvalues, so that it leads uphill.
 Eigen::Vector3d uphill(const Eigen::Matrix3d& bend, const Eigen::Vector3d& slope) {
   if (const Eigen::LLT<Eigen::Matrix3d> factor(-bend); factor.info() == Eigen::Success)
     return factor.solve(slope);

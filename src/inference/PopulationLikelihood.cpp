@@ -51,7 +51,7 @@ PopulationLikelihood::PopulationLikelihood(const std::vector<std::vector<LevelAn
   mean_square_level_ /= n_trials_;
 }
 
-// With criteria that give the share of "no difference" that was seen.
+// A start whose criterion gives the observed share of "no difference".
 Parameters PopulationLikelihood::start(double log_sensitivity) const {
   const double s = std::exp(log_sensitivity);
   const double none = std::clamp(n_none_ / n_trials_, 0.02, 0.98);
@@ -101,8 +101,8 @@ Maximum PopulationLikelihood::climb(Parameters from, Eigen::Index held) {
       .climb_by_score(from, held, {held < 0 ? 1e-7 : 1e-5, of_choices_of_few});
 }
 
-// From the likeliest starts of people who are alike and of people who differ much: where some of
-// few people guess, both may be a maximum.
+// From the likeliest start with a small and with a large spread of sensitivities: both may be local
+// maxima if there are few people and some of them guess.
 Maximum PopulationLikelihood::maximum(std::optional<double> lapse) {
   const Eigen::Index held = lapse ? Eigen::Index{shared_lapse} : -1;
   Maximum best{start(0), -infinity};
@@ -137,7 +137,7 @@ class ProfileEnd {
 
   // @param first_step signed; @param change of the others with this parameter
   std::optional<double> search(double first_step, Parameters change);
-  // Better than the estimate, if the search met that.
+  // A point likelier than the estimate, if the search met one.
   const Maximum& likeliest() const { return likeliest_; }
 
  private:
@@ -181,8 +181,8 @@ std::optional<double> ProfileEnd::search(double step, Parameters change) {
   return std::nullopt;
 }
 
-// Where answers leave it open there, further steps are spared. The criteria of the highest
-// sensitivity lie at the same levels as before; what they don't explain are lapses.
+// The fit at the extreme sensitivity, which saves further steps if the interval does not end.
+// Criteria in units of levels stay the same; answers that they do not explain are lapses.
 Maximum ProfileEnd::at_extreme_sensitivity(double limit) {
   Parameters change = Parameters::Zero(n_population_parameters);
   if (limit > 0) change[mean_log_criterion] = limit - best_.at[mean_log_sensitivity];

@@ -28,7 +28,7 @@ Interval percent(const Interval& fraction) {
   return {100 * fraction.low, 100 * fraction.high};
 }
 
-// A share of so many people, or effective trials, of which the hits need not be whole.
+// Wilson's score interval of a share of n people or effective trials; hits need not be whole.
 Interval score_interval(double fraction, double n, double t) {
   const double center = fraction + t * t / (2 * n);
   const double half = t * std::sqrt(fraction * (1 - fraction) / n + t * t / (4 * n * n));
@@ -36,12 +36,12 @@ Interval score_interval(double fraction, double n, double t) {
   return {std::max((center - half) / scale, 0.0), std::min((center + half) / scale, 1.0)};
 }
 
-// How far each participant's absence moves a figure (the jackknife).
+// Change of a figure without each participant (jackknife).
 using Moves = std::vector<double>;
 
-// Where few participants make most of the spread, its estimate is worth less than n - 1 differences
-// (Satterthwaite 1946, by the unbiased excess kurtosis; Joanes & Gill 1998). Fewer than ten can't
-// estimate their kurtosis, and their intervals are wide enough.
+// If few participants cause most of the variance, its estimate has fewer than n - 1 degrees of
+// freedom (Satterthwaite 1946, by the unbiased excess kurtosis; Joanes & Gill 1998). Fewer than ten
+// participants cannot estimate the kurtosis, and their intervals are wide enough.
 double degrees_of_freedom(const Moves& moves) {
   const double n = static_cast<double>(moves.size());
   if (n < 10) return n - 1;

@@ -68,7 +68,7 @@ struct Rate {
 /// Clusters are the participants.
 Rate rate_of(const Tallies& tallies);
 
-/// Of people, each of whom counts once: Clopper-Pearson.
+/// Share of people: Clopper-Pearson interval.
 Rate rate_of_people(const Tally& people);
 
 }  // namespace heft

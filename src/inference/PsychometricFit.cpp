@@ -42,7 +42,7 @@ class Levels {
     for (double& place : places_) place = to_axis(place);
   }
 
-  /// Neighbors put together, at their mean, until there are no more than so many.
+  /// Neighboring levels merged at their mean, until there are at most `most`.
   Levels coarser(std::size_t most) const {
     Levels few = *this;
     few.places_.clear();
@@ -178,8 +178,8 @@ LikelihoodFit maximize(const Levels& levels, PsychometricShape shape,
       bounds, from);
 }
 
-// With very many levels, the maxima are separated on fewer, which takes as long for each start as
-// there are levels. So many answers make one hill of it.
+// With very many levels, local maxima are compared on merged levels, because the time of each start
+// grows with their number; with so many answers, one search from the best is enough.
 LikelihoodFit maximize(const Levels& levels, PsychometricShape shape,
                        const std::vector<ParameterBounds>& bounds) {
   constexpr std::size_t many = 5000, few = 500;

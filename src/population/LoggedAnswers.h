@@ -46,8 +46,8 @@ struct LoggedPeople {
 /// @throws Error if sessions have different protocols, or no trial can be used
 LoggedPeople logged_people(const LogReader& reader, const std::string& db);
 
-/// The blocks of these stimuli alone, with each stimulus so many times: comparisons as constant
-/// stimuli.
+/// The protocol with blocks of these stimuli only, each presented `repeats` times: comparisons as
+/// constant stimuli.
 Protocol repeated_stimuli(const LoggedPeople& logged, int repeats);
 
 /// The answers of one simulated person. @param config as for run_alone()

@@ -20,8 +20,8 @@ namespace heft {
 
 namespace {
 
-// What one study's report says: its hypotheses, and its estimates except curves over levels, masses
-// or trials.
+// The report of one study: its hypotheses, and its estimates except curves over levels, masses or
+// trials.
 struct StudyFindings {
   std::vector<Hypothesis> hypotheses;
   std::vector<StudyEstimate> estimates;

@@ -21,7 +21,7 @@ struct PowerRequest {
   std::string folder;             ///< for the logs of the studies, which are removed after use
 };
 
-/// What the studies of one size said about one hypothesis.
+/// Verdicts on one hypothesis in the studies of one size.
 struct HypothesisPower {
   std::string name, statement;
   bool declared = false;                         ///< by the protocol
@@ -39,7 +39,7 @@ struct EstimatePrecision {
   std::optional<double> sd;  ///< of the value over studies
 };
 
-/// Of all studies of one size: the first `participants` of each simulated study.
+/// Results of all studies of one size: the first `participants` of each simulated study.
 struct PowerAtSize {
   int participants = 0;
   std::vector<HypothesisPower> hypotheses;   ///< those that apply to the protocol

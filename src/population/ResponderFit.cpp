@@ -27,7 +27,7 @@ double standard_error(const Bank::Moments& found, int n) {
   return sd * std::sqrt(1.0 / n + 1 / found.effective);
 }
 
-// Of the logarithm of a standard deviation.
+// Standard error of the logarithm of a standard deviation.
 double log_sd_error(const Bank::Moments& found, int n) {
   const double excess = std::max(found.kurtosis - 1, 0.5);
   return std::sqrt(excess / 4 * (1.0 / n + 1 / found.effective));

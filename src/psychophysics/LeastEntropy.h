@@ -33,9 +33,9 @@ struct LeastEntropyConfig {
 
   bool is_indecision() const { return function == ResponseFunction::indecision; }
   ResponseModel model() const { return {function, scale}; }
-  /// Of the model's parameters, in its order.
+  /// Grids of the model's parameters, in its order.
   std::array<const ValueGrid*, 4> grids() const;
-  /// Without the levels beyond floor and ceiling.
+  /// The grid, without levels beyond floor and ceiling.
   GridSpace space() const;
 
   ConfigMistakes check_beside(double reference, bool either_sign = false) const;

@@ -24,7 +24,7 @@ struct Marginal {
   /// Whether the distribution ends at an end of the grid: the weight there is at least what a
   /// normal distribution has at the ends of its 95 % interval, exp(-1.96^2 / 2) of the largest.
   Censored beyond() const;
-  /// Of a value v the distribution of factor / v, factor and all values above 0.
+  /// Distribution of factor / v for a value v; factor and all values are above 0.
   Marginal inverse(double factor) const;
 };
 

@@ -85,7 +85,7 @@ class Procedure {
   std::vector<double> planned_levels() const { return kind_->planned_levels(); }
 
   bool is_bayesian() const { return kind_->is_bayesian(); }
-  /// Of the parameters of a Bayesian kind, at any time; empty for the others.
+  /// Posterior of the parameters of a Bayesian kind, at any time; empty for the others.
   std::vector<ParameterPosterior> posterior() const { return kind_->posterior(); }
 
   /// The procedure as a `Kind`; null if it is of another kind.

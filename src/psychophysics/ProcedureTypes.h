@@ -63,7 +63,8 @@ struct EnumNames<Censored> {
 /// Estimate of one method. A procedure may have several.
 struct Estimate {
   std::string method;
-  /// In the unit of levels, with the limits of an interval; none: the method does not give it.
+  /// The estimate in the unit of levels, and the limits of its interval; none: the method does not
+  /// give it.
   std::optional<double> value{}, low{}, high{};
   int n_trials = 0, n_reversals = 0;
   int n_floor = 0, n_ceiling = 0;  ///< moves that a bound shortened

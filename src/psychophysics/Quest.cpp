@@ -11,7 +11,7 @@ namespace heft {
 namespace {
 constexpr int most_grains = 20'000;
 
-// Without xT.
+// p(x) of Quest.h at x - T = from_threshold, without xT.
 double positive_share(const QuestConfig& config, double from_threshold) {
   return config.delta * config.gamma +
          (1 - config.delta) *

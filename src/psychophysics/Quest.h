@@ -94,7 +94,7 @@ class Quest {
   const QuestConfig& config() const { return config_; }
   const Marginal& threshold() const { return threshold_; }
   double mode() const;
-  /// Of the posterior. @param order the quantile; QUEST's own without it
+  /// Quantile of the posterior. @param order none: QUEST's own
   double quantile(std::optional<double> order = {}) const;
 
  private:

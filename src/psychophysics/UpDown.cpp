@@ -184,7 +184,7 @@ std::vector<Estimate> UpDown::estimates() const {
            .censored = censored()}};
 }
 
-// By the reversals in the estimate, or without an estimate by the current level.
+// Judged by the reversals in the estimate, or without an estimate by the current level.
 Censored UpDown::censored() const {
   const Censored last = estimate() ? Censored::none : side_of(target_, level());
   const bool below = cut_below_ || last == Censored::below;

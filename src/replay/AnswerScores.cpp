@@ -31,7 +31,7 @@ MeanOverPeople mean_over_people(const Trials& trials, const OfTrial& value) {
   return {*mean(means), student_t_interval(means)};
 }
 
-// Of one trial: the logged answer, or all draws of a model.
+// Answers to one trial: the logged one, or all draws of a model.
 struct DifferentAnswers {
   int n_different = 0, n = 0;
 };
@@ -109,8 +109,8 @@ ModelScores scores_of(const Trials& trials, const Trials& with_catches, std::siz
   scores.difference = mean_over_people(trials, difference);
   scores.n_people_better = static_cast<int>(
       std::ranges::count_if(means_of_people(trials, difference), [](double d) { return d > 0; }));
-  // Every draw counts: the correction of the rates would pull the few catch trials to 1/2, and a
-  // model that does not look would have a d' below 0.
+  // All draws are counted: with the correction of rates, the few catch trials would be pulled to
+  // 1/2, and a model that does not look would have a d' below 0.
   scores.detection = detection_of(with_catches, [model](const JudgedTrial& trial) {
     const AnswerDraws& draws = trial.models[model];
     return DifferentAnswers{draws.n - draws.n_of("none"), draws.n};
@@ -160,7 +160,7 @@ class AnswerShares {
   const AnswerDraws& of_person(const JudgedTrial& trial) const {
     return by_person_.at({trial.person, key_of(trial, ScoreGroups::references)});
   }
-  // Of the answers to the person's other trials, had they been given to this one.
+  // Mean log score that the answers to the person's other trials would have in this trial.
   double score_of_others(const JudgedTrial& trial, std::size_t model) const {
     const AnswerDraws& answers = of_person(trial);
     double sum = -heft::log_score(trial, model);

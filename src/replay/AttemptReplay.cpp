@@ -21,7 +21,7 @@ ShownFrame AttemptReplay::advance(const FrameRow& frame) {
   sample.tracked = frame.tracked;
   sample.jump = frame.jump;
   ShownFrame shown = world_.advance(sample);
-  // As the runner logs them: cubes_shown after the other events of the frame.
+  // The runner logs cubes_shown after the other events of the frame.
   std::stable_partition(shown.events.begin(), shown.events.end(),
                         [](const Event& e) { return !e.as<CubesShown>(); });
   for (Event event : shown.events) {

@@ -90,7 +90,7 @@ const ParameterRow* find_row(std::string_view name, std::span<const ParameterPar
 /// Ending of the name of a parameter's spread in a model's file.
 inline constexpr std::string_view spread_ending = ".spread";
 
-/// A file may call a parameter's median NAME.median: NAME. Other names stay as they are.
+/// The name of a parameter: files may write NAME.median instead of NAME.
 std::string_view without_median(std::string_view name);
 
 /// Defaults of all parts: an average participant.

@@ -126,7 +126,7 @@ void AttemptRun::listen() {
   parts_.pictures.restart_count();
 }
 
-// On a wall clock. @return whether the attempt continues
+// Waits on a wall clock. @return whether the attempt continues
 bool AttemptRun::wait_until(double t_s) {
   if (!parts_.clock.is_wall()) return true;
   do {

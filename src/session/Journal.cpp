@@ -8,7 +8,7 @@ namespace {
 constexpr double flush_every_s = 1;
 }  // namespace
 
-// A busy log buffers what it could not write, in order.
+// Calls `write`; a busy log buffers what it could not write, in order.
 template <typename Write>
 void Journal::write(const Write& write) {
   try {

@@ -104,7 +104,7 @@ void Pages::ask(const std::string& name, const std::string& after) {
   journal_.add_info(done, before_.entries[done]);
 }
 
-// As show(), with the model's touches instead of a person's.
+// Like show(), with the model's touches instead of a person's.
 TouchKind Pages::ask_model(const Questionnaire& form, const ScreenState& screen) {
   QuestionnaireResponder model(*reader_.responder, form, screen);
   SessionClock& clock = journal_.clock();

@@ -183,7 +183,7 @@ void SessionControl::note_alive() {
   stood_still_since(from_s, "the program stood still");
 }
 
-// In a pause that began at `from_s`. Ends it.
+// Handles a suspension of the program within a pause that began at `from_s`, and ends the pause.
 void SessionControl::stood_still_since(double from_s, const std::string& why) {
   const Engine& engine = journal_.engine();
   alive_s_ = journal_.now_s();

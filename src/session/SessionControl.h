@@ -50,7 +50,7 @@ class ParticipantScreen {
                     const ScreenTexts* asked)
       : journal_(journal), view_(view), texts_(texts), asked_(asked) {}
 
-  /// As ArView::present; logs the screen's text if it is new.
+  /// Calls ArView::present; logs the screen's text if it is new.
   std::optional<double> present(const ViewFrame& frame, const ScreenState& screen);
 
   /// Logs the text of a page for a model, where there is no screen.

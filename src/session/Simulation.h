@@ -19,7 +19,7 @@ struct SimulationRequest {
   int participants = 1;  ///< of all shards together
   int jobs = 1;
   bool keep_frames = false;
-  /// Only these participants, of whom the log may already have the first. None: the next ones that
+  /// Only these participants; the first of them may already be in the log. None: the next ones that
   /// the log does not have.
   std::optional<Shard> shard = {};
   /// Called once the file is locked, before any computation, with the participants to compute and

@@ -74,7 +74,7 @@ void SurrogateAttempt::arrange(const TrialPlan& plan) {
     cubes_.push_back({slot_m, Eigen::Quaterniond::Identity()});
 }
 
-// From one planned movement to the next, at the times of displayed frames.
+// Advances from one planned movement to the next, at the times of displayed frames.
 void SurrogateAttempt::explore(Hand& hand) {
   const auto frame_at = [&](double t_s) {
     return std::ceil(t_s * stage_.display_rate_hz - 1e-9) / stage_.display_rate_hz;
@@ -89,7 +89,7 @@ void SurrogateAttempt::explore(Hand& hand) {
   }
 }
 
-// From the last frame before the stroke until the hand leaves the line.
+// Computes a push, from the last frame before the stroke until the hand leaves the line.
 void SurrogateAttempt::push(Hand& hand, DisplayedFrame& frame) {
   const double period_s = 1 / stage_.display_rate_hz;
   const Hand::Stroke stroke = *hand.stroke();

@@ -34,7 +34,7 @@ class SurrogateAttempt {
   const Engine& engine() const { return journal_.engine(); }
   void log(double t_s, EventPayload what);
 
-  /// Of the cube in reach.
+  /// Touches of the cube in reach.
   struct TouchFacts {
     double since_s = 0, last_s = 0, push_m = 0, lag_m = 0;
     double from_y_m = 0;

@@ -33,7 +33,7 @@ std::size_t n_characters(const std::string& utf8) {
       std::ranges::count_if(utf8, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-// Of slots 1 and 2 the second may be a real object, which is lifted first.
+// The second slot may be a real object, which is lifted first.
 Answer answered(const Comparison::Offer& offer, Action action) {
   if (offer.object.empty()) return {{std::move(action)}};
   if (action.slot == 2) action = {"select_object"};

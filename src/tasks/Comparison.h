@@ -58,7 +58,7 @@ struct Comparison {
       ActionSpec{.kind = "different"}, ActionSpec{.kind = "lifted", .is_step = true},
       ActionSpec{.kind = "select_object"}};
   static constexpr std::array<std::string_view, 2> outcomes{"difference", "no_difference"};
-  /// With a real object, by its ComparisonAnswers.
+  /// Wordings with a real object, by ComparisonAnswers.
   static constexpr std::array<std::string_view, 3> real_wordings{"object", "object_heavier",
                                                                  "object_same_different"};
   static constexpr std::array wordings{
@@ -115,7 +115,7 @@ struct Comparison {
     bool depends_on_answers() const { return depend_on_answers(staircases); }
     int most_cubes() const { return reference ? 1 : 2; }
     double trial_s() const { return reference ? 15 : task.trial_s; }
-    /// Without catch trials, and with random sides: staircases do not advance in practice.
+    /// The block without catch trials and with random sides: staircases do not advance in practice.
     Block for_practice() const;
     bool is_forced() const { return answers == ComparisonAnswers::heavier; }
     bool has_three_answers() const { return answers == ComparisonAnswers::heavier_or_none; }

@@ -32,7 +32,7 @@ struct AnswerScale {
   bool takes(double value) const;
   /// The nearest valid answer; numbers that need not be whole get three digits of the range.
   double nearest(double value) const;
-  /// At a fraction of the way up the scale.
+  /// The value at a fraction of the scale, from low to high.
   double at(double fraction) const { return nearest(low + fraction * (high - low)); }
   /// The same with all points, or all whole numbers, equally likely for fractions in [0, 1).
   double any(double fraction) const;
@@ -122,7 +122,7 @@ struct Judgment {
     /// Every choice is one of two cubes.
     bool is_forced() const;
     StaircaseRules staircase_rules() const;
-    /// Of a completed trial to its staircase.
+    /// The response of a completed trial to its staircase.
     Response response_in(const TrialRow& row) const;
     ConfigMistakes check() const;
     std::vector<std::pair<std::string, std::string>> choices() const;

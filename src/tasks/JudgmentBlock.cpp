@@ -10,7 +10,7 @@
 namespace heft {
 
 namespace {
-// How many ways there are to take so many of n, if equal ones count as different.
+// Binomial coefficient: number of ways to take `taken` of n, if equal ones count as different.
 double n_ways(std::size_t n, std::size_t taken) {
   double ways = 1;
   for (std::size_t i = 0; i < taken; ++i)

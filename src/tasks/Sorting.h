@@ -58,7 +58,7 @@ struct Sorting {
     double expected_trials() const { return total_of(trials); }
     int n_trials() const { return total_of(trials); }
     int most_cubes() const { return static_cast<int>(masses_g.size()); }
-    /// By slot. @param order the block's masses, by slot
+    /// Friction on the table by slot. @param order the block's masses, by slot
     std::vector<double> friction_in(const std::vector<double>& order) const;
   };
   struct Offer {

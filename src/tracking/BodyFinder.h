@@ -52,11 +52,11 @@ class BodyFinder {
     body_ = body;
     last_tags_.clear();
   }
-  /// Of some tags of the last find.
+  /// Edge bias of cells, from some tags of the last find.
   std::optional<CellBias> cells(const Image& gray, const BodyFit& fit) const {
     return cell_bias(gray, camera_, patterns_, last_tags_, fit, how_.curve, how_.noise, 8);
   }
-  /// Of the last find.
+  /// Error of the focal length, from the last find.
   FocalError focal_error(const BodyFit& fit, const BiasPrior& prior) const {
     return heft::focal_error(last_tags_, fit, prior);
   }
@@ -72,7 +72,7 @@ class BodyFinder {
     BiasPrior bias;
     std::optional<Pose> camera_from_table = {};  ///< the body is above it
   };
-  /// From detected tags, which may hold one tag several times.
+  /// Finds the body from detected tags, which may hold one tag several times.
   std::optional<BodyFit> find(const Image& gray, const std::vector<DetectedTag>& detected,
                               const Known& known, TrackerTimes& times);
   /// Tags of the last find that are not the body's: of a second print with the same numbers.
@@ -84,8 +84,8 @@ class BodyFinder {
     int tags = 1;
     double quality = 0;
   };
-  /// From the expected pose alone, within half a cell; none, without side effects, unless the
-  /// requirements are met. Cells must match its tags'.
+  /// Finds the body from its expected pose alone, within half a cell; none, without side effects,
+  /// unless the requirements are met. Cells must match its tags.
   std::optional<BodyFit> find_again(const Image& gray, const Pose& expected, const Enough& enough,
                                     const BiasPrior& prior, TrackerTimes& times);
 
@@ -109,7 +109,7 @@ class BodyFinder {
   };
   Measured measure_detected(const Image& gray, const std::vector<DetectedTag>& detected,
                             std::vector<bool>& done);
-  /// From the tags that fit one pose above the table.
+  /// The fit of the tags that fit one pose above the table.
   std::optional<BodyFit> fit_own(const std::vector<TagObservation>& tags, const Known& known,
                                  const BiasPrior& bias);
   std::optional<BodyFit> seen_again(const Image& gray, const Pose& expected, const Enough& enough,

@@ -27,8 +27,9 @@ struct SeenEffector {
   /// unknown.
   Velocity carried_on(const Velocity& mean, double by_pictures) const;
 
-  /// The state after the next pose, which is at then_s.
-  /// @param n_intervals so many times the time that has passed by the clock
+  /// The state after the next pose, at then_s.
+  /// @param n_intervals picture intervals since the last pose, which files without times do not
+  ///   show
   SeenEffector moved_to(double then_s, double then_own_row_s, const Pose& pose,
                         int n_intervals) const;
 };

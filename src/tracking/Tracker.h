@@ -23,16 +23,17 @@ inline constexpr double least_pose_quality = 0.05;
 
 struct TrackedPicture {
   std::optional<Pose> camera_from_board;
-  /// Only with the board. For a camera with a readout_s: at the time when the effector's own row
-  /// was read, so that what is drawn at it matches the filmed effector.
+  /// None without the board. For a camera with a readout_s, the pose at the time when the
+  /// effector's own row was read, so that drawings at it match the filmed effector.
   std::optional<Pose> board_from_effector;
   double effector_t_s = 0;  ///< that time; the picture's without readout_s or effector
   int n_board_tags = 0, n_effector_tags = 0;
   int n_effector_faces = 0;  ///< faces with those tags; at least two make the pose well determined
   double noise = 0;          ///< SD, gray levels of 255
   double blur_px = 0;        ///< SD of the board's edges, in linear light; 0 without the board
-  /// Of another print with the board's or the effector's numbers. While both are followed, another
-  /// quarter of the picture is searched for them in turn, and what was found there remains.
+  /// Tags of a second print with the board's or the effector's numbers. While both are followed,
+  /// one quarter of the picture is searched for them at a time, and earlier findings in the other
+  /// quarters remain.
   int n_foreign_tags = 0;
   /// RMS distance of measured tag edges from the pose's.
   double board_reprojection_px = 0, effector_reprojection_px = 0;
@@ -48,10 +49,10 @@ struct TrackedPicture {
   /// Fraction of the last picture in each, by the camera's temporal denoising; removed before tags
   /// are measured.
   double last_picture = 0;
-  /// Of the focal length, relative to the camera's file: a lens that refocuses breathes.
+  /// Focal length relative to the camera's file: it changes with a lens that refocuses.
   double focal_length_scale = 1;
-  /// Of the size of the board's tags over the file's, relative to the distances between them; 0
-  /// unless it is certain. They are tracked with it.
+  /// Excess of the size of the board's tags over the file's, relative to the distances between
+  /// them; 0 unless it is certain. The tracker uses it.
   double board_tag_excess = 0;
   /// The effector is beyond the reach of motion since it was last seen, or was not seen for too
   /// long.

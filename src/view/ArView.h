@@ -26,7 +26,7 @@ struct ViewFrame {
   /// How much of each camera pixel is in front of all cubes, of 255; one channel; none: unknown.
   std::shared_ptr<const Image> in_front = {};
   std::optional<Pose> other_clone = {};  ///< of a what-if, as an outline; none: not drawn
-  /// Of a replay: what is shown, for its viewers. Above a video's frames, over a window's scene.
+  /// Captions of a replay: above a video's frames, over a window's scene.
   std::vector<std::string> captions = {};
 };
 

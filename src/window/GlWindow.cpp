@@ -100,7 +100,8 @@ void require_display(int number) {
               ExitCode::device_missing);
 }
 
-// A window that leaves the desktop's bars and its own frame visible, in the middle.
+// Place of a window in the middle of the display, with the desktop's bars and the window's frame
+// visible.
 SDL_Rect windowed_place(int display) {
   constexpr int wanted_w = 1024, wanted_h = 600, frame_w = 8, frame_h = 40;
   SDL_Rect usable{};

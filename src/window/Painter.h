@@ -73,7 +73,7 @@ struct Paint {
   std::optional<Patch> patch = {};
 };
 
-/// On a frame of the background's color.
+/// Paints the page on a frame of the background's color.
 void paint_page(ImDrawList& list, const Page& page, const Paint& paint);
 
 class SceneOnScreen {

@@ -99,7 +99,7 @@ bool WindowView::is_on_effector(float x, float y) const {
   if (!in_trial_ || !scene_.area() || !scene_.area()->contains(x, y)) return false;
   const auto at_m = dragged_to(x, y);
   if (!at_m) return false;
-  // Beside a held one, a second finger turns it, unless it taps a cube.
+  // While the effector is held, a second finger turns it unless it taps a cube.
   return drag_->is_held() ? !target_at(x, y) : drag_->is_at(*at_m);
 }
 

@@ -41,7 +41,7 @@ inline void add_new(std::vector<std::string>& texts, std::string text) {
   if (std::ranges::find(texts, text) == texts.end()) texts.push_back(std::move(text));
 }
 
-// One of the spec's series, of what its split makes of it.
+// One series of the chart's declaration, for one value of its split.
 struct Drawn {
   std::string title;
   Chosen estimates, participants;
@@ -93,7 +93,7 @@ class XAxis {
   }
   double low() const { return *places_.begin(); }
   double high() const { return *places_.rbegin(); }
-  // Of a single place its neighborhood.
+  // Length of the axis; for a single value, that of its neighborhood.
   double span() const { return high() > low() ? high() - low() : std::max(std::abs(low()), 1.0); }
   double least_gap() const {
     double gap = span();

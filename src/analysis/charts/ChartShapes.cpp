@@ -166,7 +166,7 @@ class Drawing {
     return panel;
   }
 
-  // Where the model's estimates are that belong to this panel.
+  // Draws the model's band from the estimates of this panel.
   void add_band(PlotPanel& panel, const XAxis& axis, const ChartSeries& series) const {
     if (series.band.empty()) return;
     std::map<double, std::string> rows;
@@ -210,7 +210,7 @@ class Drawing {
     }
   }
 
-  // Where its coordinates say, or all across.
+  // Draws a reference value at its coordinate, or across the panel.
   void add_reference(PlotPanel& panel, const XAxis& axis, double half) const {
     if (!spec_.reference) return;
     std::string rows;
@@ -282,7 +282,7 @@ class Drawing {
   }
   bool has_axes(std::string_view what) const { return spec_.axes.find(what) != std::string::npos; }
 
-  // Of the two series, what one participant has at the same place.
+  // One point for each participant: the values of both series at the same coordinates.
   PlotPanel scatter(PlotPanel panel, const std::string& name) const {
     std::map<std::string, std::string> rows;
     for (const StudyEstimate* x : estimates_)

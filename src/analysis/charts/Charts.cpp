@@ -20,7 +20,7 @@ std::string counted(const std::map<std::string, int>& reasons) {
   return text;
 }
 
-// One step of the flow, and beside it who is lost after it.
+// One step of the participant flow, with those who are lost after it.
 struct FlowStep {
   std::string text, lost;
 };
@@ -89,7 +89,7 @@ Chart flow_chart(const Summary& summary) {
   return chart;
 }
 
-// Whose answers they are: a model's figures must not pass for people's.
+// Names the model in every chart, so that its figures are not taken for people's.
 std::string who_of(const Summary& summary) {
   if (summary.data == "simulated") return "simulated participants";
   return summary.simulated() ? "persons and models mixed" : "these participants";

@@ -31,7 +31,7 @@ inline constexpr std::string_view published_color = "#c0561f";
 /// "Made by: heft analyse --db heft.db --out report (heft 0.1.0)"
 std::string caption_of(const Summary& summary);
 
-// Of staircases, which are no estimates.
+// Chart of staircases, which are not estimates.
 Chart tracks_chart(const Summary& summary);
 std::vector<Chart> multiples_charts(const Summary& summary);
 

@@ -34,7 +34,7 @@ int key_lines(const std::vector<const PlotLayer*>& layers, int width_px) {
   return (static_cast<int>(layers.size()) + n_columns - 1) / n_columns;
 }
 
-// Of each title the first layer that has it.
+// The first layer of each title.
 std::vector<const PlotLayer*> layers_in_key(const std::vector<PlotPanel>& panels) {
   std::vector<const PlotLayer*> layers;
   for (const PlotPanel& panel : panels)
@@ -45,8 +45,8 @@ std::vector<const PlotLayer*> layers_in_key(const std::vector<PlotPanel>& panels
   return layers;
 }
 
-// Of a panel whose values are all the same: gnuplot prints a warning before it chooses such a
-// range. None for other panels.
+// Range of a panel whose values are all the same, for which gnuplot would print a warning. None for
+// other panels.
 std::string range_of_one_value(const PlotPanel& panel) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const PlotLayer& layer : panel.layers) {

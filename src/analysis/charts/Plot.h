@@ -1,5 +1,5 @@
-// A chart's script from panels of layers: each layer has its data in the script and says how
-// gnuplot draws it.
+// gnuplot scripts of charts, from panels of layers. A layer has data and the commands that draw
+// them.
 #pragma once
 
 #include <string>
@@ -59,8 +59,9 @@ struct ChartFrame {
 /// `caption_top`, in screen coordinates, for placing the rest.
 std::string gnuplot_header(const ChartFrame& frame);
 
-/// Where the next plot is: from left to right as parts of the chart's width, its top and bottom
-/// in pixels from the chart's top.
+/// Sets the place of the next plot.
+/// @param left,right fractions of the chart's width
+/// @param top_px,bottom_px from the chart's top
 std::string gnuplot_place(double left, double right, int top_px, int bottom_px);
 
 /// Runs a script in a folder.

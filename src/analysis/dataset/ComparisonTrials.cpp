@@ -12,7 +12,7 @@ SideChosen side_chosen(const TrialRow& trial) {
   return *trial.chosen_slot == 1 ? SideChosen::left : SideChosen::right;
 }
 
-// Without a logged place the reference counts as on the left.
+// The reference counts as on the left if its place was not logged.
 ComparedTrial compared_trial(const TrialRow& trial, std::uint32_t person) {
   return {*trial.plan.level_g,
           response_time_s(trial),

@@ -32,7 +32,7 @@ struct ComparedTrial {
   double right_minus_left_g() const { return reference_on_right ? -level_g : level_g; }
 };
 
-/// Those with an answer and a level, no practice.
+/// Comparisons with an answer and a level, without practice.
 class ComparisonTrials {
  public:
   void add(const SessionData& data);
@@ -68,14 +68,14 @@ ComparedTrials pointers_to(const std::deque<ComparedTrial>& trials);
 std::vector<ComparedTrials> binned(ComparedTrials trials);
 double mean_level_g(const ComparedTrials& bin);
 
-/// The staircases that people ran, choice by choice, with the procedures as they were before the
-/// first trial: what a model has to run again to say what it predicts.
+/// The choices of each staircase, with the procedure before its first trial: input of predictive
+/// checks.
 class StaircaseRuns {
  public:
   void add(const SessionData& data);
 
-  /// One for each participant, which is then forgotten; empty where a staircase's procedure is not
-  /// known.
+  /// The runs of each participant, moved out of this object; empty if a staircase's procedure is
+  /// unknown.
   std::vector<PersonRuns> take(const Compared& compared);
 
  private:

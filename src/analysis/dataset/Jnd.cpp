@@ -62,8 +62,8 @@ std::map<std::string, Course> courses_of(const SessionData& data) {
   return courses;
 }
 
-// Which way a staircase was going that did not settle: by the bound that it hit, or from where it
-// began to where it got.
+// Direction of an indeterminate staircase: towards the bound that it hit, or from its first to its
+// last level.
 Censored direction_of(const EstimateRow& row, const Course& course) {
   if ((row.n_ceiling > 0) != (row.n_floor > 0))
     return row.n_ceiling > 0 ? Censored::above : Censored::below;
@@ -73,8 +73,8 @@ Censored direction_of(const EstimateRow& row, const Course& course) {
   return last_g > first_g ? Censored::above : Censored::below;
 }
 
-// From a posterior distribution: a missing JND is not identifiable, and of a censored one an end of
-// the interval is known.
+// JND of a posterior distribution: missing if it is not identifiable; if it is censored, one end of
+// its interval is known.
 void judge_posterior(StaircaseResult& result) {
   if (result.censored == Censored::none) {
     result.shown_g = result.jnd_g;
@@ -235,8 +235,8 @@ std::optional<CensoredValue> censored_value(const StaircaseResult& result) {
 }
 
 namespace {
-// Of a forced choice only where the comparison is never the lighter one: otherwise the answers are
-// equally frequent at the point of equality, not at a difference.
+// Forced choices give a JND only if the comparison is never the lighter one: otherwise the answers
+// are equally frequent at the point of equality, not at a difference.
 bool estimates_jnd(const TaskBlock& block, const Procedure& procedure) {
   if (!ProcedureKinds::estimates_level(procedure)) return false;
   const auto* comparison = block.as<Comparison::Block>();

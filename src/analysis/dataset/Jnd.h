@@ -46,16 +46,16 @@ struct StaircaseResult {
   /// above, below: the JND is only known to be beyond `shown_g`; otherwise indeterminate.
   Censored censored = Censored::none;
   std::string why{};  ///< "at the ceiling", "trial limit", "3 reversals"...; empty: not censored
-  /// The JND; where that is censored, what it lies beyond; none where nothing is known.
+  /// The JND; if it is censored, its known bound; none if neither is known.
   std::optional<double> shown_g{};
   double start_g = 0;  ///< the first level presented
 };
 
-/// None where nothing is known.
+/// None if neither JND nor bound is known.
 std::optional<CensoredValue> censored_value(const StaircaseResult& result);
 
-/// What one or several staircases estimate: the JND or what it lies beyond, and the JND of the
-/// paper's rule, which takes a censored one as exact.
+/// Estimate of one or several staircases: the JND or its bound, and the JND by the paper's rule,
+/// which takes a censored one as exact.
 struct JndFigure {
   std::optional<CensoredValue> censored, as_logged;
 };
@@ -63,8 +63,8 @@ struct JndFigure {
 /// A staircase that ended with fewer is censored.
 inline constexpr int least_reversals = 4;
 
-/// One participant's JND at a reference: the mean over sessions of each session's mean staircase.
-/// Of staircases that are censored the mean is censored too, in their direction.
+/// One participant's JND at a reference: the mean over sessions of each session's mean staircase,
+/// censored if one of the staircases is, in the same direction.
 struct ParticipantJnd {
   std::string participant;
   double jnd_g = 0;  ///< censored: what it lies beyond
@@ -81,8 +81,8 @@ struct PaperMean {
 struct Jnds : FigureSummary {
   PaperMean by_paper;
   std::vector<ParticipantJnd> participants;  ///< with a figure, exact or censored
-  /// Without a figure, or without one that a mean could hold: a staircase unfinished, without a JND
-  /// and a direction, or one above and one below.
+  /// Participants without a figure: a staircase is unfinished, has neither JND nor direction, or
+  /// one is censored above and another one below.
   std::vector<std::string> missing;
 
   void add(const std::string& participant, const JndFigure& figure);
@@ -94,9 +94,9 @@ struct Jnds : FigureSummary {
   std::vector<double> as_logged_g_;
 };
 
-/// Their mean and its interval into an estimate.
+/// Copies the mean and its interval to an estimate.
 void set_mean(StudyEstimate& estimate, const Jnds& jnds);
-/// Each one's, otherwise as an estimate.
+/// Appends each participant's JND. @param of the other fields of the estimates
 void put_participants(Estimates& all, StudyEstimate of, const Jnds& jnds);
 
 /// JNDs of staircases from above and from below at one reference. Their difference measures the
@@ -107,10 +107,10 @@ struct StartEffect {
 
 struct ReferenceJnd {
   Compared compared;
-  /// Where staircases of a session differ in their start: those that begin above the middle between
+  /// By start, if staircases of a session differ in it: those that begin above the middle between
   /// the highest and the lowest start, and those below. None: there is one start.
   std::optional<StartEffect> starts;
-  /// Of all staircases together, which the paper measured only where there is one start.
+  /// All staircases together; comparable with the paper only if there is one start.
   Jnds overall;
   int n_staircases = 0;  ///< finished
   int n_unfinished = 0;  ///< started in a session that did not finish them
@@ -120,15 +120,15 @@ struct ReferenceJnd {
   int n_trial_limit = 0;           ///< staircases that it ended
   int n_floor = 0, n_ceiling = 0;  ///< hits, all staircases
   int n_floor_staircases = 0, n_ceiling_staircases = 0;
-  /// Where all sessions compared in the paper's technique, at a reference of the paper's.
+  /// The paper's figure, if all sessions had its technique and one of its references; otherwise
+  /// null.
   const published::Figure* published = nullptr;
 
-  /// Of staircases that began as the paper's did: from above, where there are others too.
+  /// Staircases that began as the paper's did, from above.
   const Jnds& as_published() const { return starts ? starts->from_above_g : overall; }
 };
 
-/// Names of a protocol's staircases whose kind estimates nothing; none where the text is no
-/// protocol.
+/// Names of a protocol's staircases whose kind estimates nothing; empty if the text is no protocol.
 std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
 
 /// Collects the sessions' staircases of one task.

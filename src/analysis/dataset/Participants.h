@@ -23,7 +23,7 @@ struct ParticipantRow {
   bool excluded() const { return !excluded_because.empty(); }
 };
 
-/// By name. The rules are those of each one's first session.
+/// Participants by name. The exclusion rules are those of their first session.
 class ParticipantsCollector {
  public:
   void add(const SessionData& data);

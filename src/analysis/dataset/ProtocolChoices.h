@@ -40,8 +40,7 @@ struct RanProtocol {
   std::set<std::string> participants, conditions;
 };
 
-/// Those of every protocol that the sessions ran, each once. A logged text that is no protocol has
-/// none.
+/// Choices of each protocol that the sessions ran. A logged text that is no protocol has none.
 class ChoicesCollector {
  public:
   void add(const SessionData& data);

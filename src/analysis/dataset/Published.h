@@ -1,6 +1,6 @@
-// The paper's techniques, figures and hypotheses, each with the place it comes from. They stand
-// beside what a log holds only where law and parameters, masses and task are the paper's, and are
-// used for nothing else.
+// The paper's techniques, figures and hypotheses, each with its place in the paper. They are
+// printed beside results only if law and parameters, masses and task are the paper's, and are used
+// for nothing else.
 #pragma once
 
 #include <array>
@@ -26,7 +26,8 @@ inline constexpr std::string_view about_figures =
 /// The paper's conditions (4.1): C1, the control, and C2, the technique.
 enum class Condition { coupled, decoupled };
 
-/// Which of them a technique is, whatever its name; none: the paper did not measure it.
+/// The paper's condition with the law and parameters of a technique, whatever its name; none: the
+/// paper did not measure it.
 std::optional<Condition> condition_of(const Technique& technique);
 
 constexpr std::string_view in_words(Condition condition) {

@@ -190,7 +190,7 @@ std::string text_of(const std::optional<Value>& value) {
   return value ? text_of(*value) : "";
 }
 
-// As the log's columns are, "" where a setup has none.
+// Texts of the columns of `setup`; "" for NULL.
 std::vector<std::string> values_of(const SessionConfig& setup) {
   std::vector<std::string> values;
   visit_cells(setup,

@@ -1,5 +1,5 @@
-// One figure of a study with all that may be printed beside it. Every figure of the analysis is
-// one: tables, JSON, CSV, the dictionary and charts are made of lists of these.
+// One figure of a study, with interval, counts and published figure. Tables, JSON, CSV, the
+// dictionary and charts are made from lists of these.
 #pragma once
 
 #include <deque>
@@ -25,7 +25,8 @@ struct Measure {
   std::string_view meaning;  ///< for the data dictionary
 };
 
-/// Where an estimate belongs, beside task, condition and reference: a level, a mass, an answer.
+/// A coordinate of an estimate in addition to task, condition and reference, such as a level, a
+/// mass or an answer.
 struct Coordinate {
   std::string_view name;  ///< "level_g", "answer"
   std::string text;
@@ -62,7 +63,8 @@ struct StudyEstimate {
       if (coordinate.name == name) return &coordinate;
     return nullptr;
   }
-  /// Of task, condition, participant and reference_g too; empty: it has none.
+  /// Text of a coordinate, also of task, condition, participant and reference_g; empty: it has
+  /// none.
   std::string text_at(std::string_view name) const;
 };
 
@@ -73,14 +75,14 @@ using Estimates = std::deque<StudyEstimate>;
 /// A coordinate's name and its text.
 using Place = std::pair<std::string_view, std::string_view>;
 
-/// Those of a measure at all of these places.
+/// The estimates of a measure at all of these coordinates.
 std::vector<const StudyEstimate*> estimates_of(const Estimates& estimates, std::string_view measure,
                                                std::initializer_list<Place> places = {});
 /// The first of them; null: there is none.
 const StudyEstimate* find_estimate(const Estimates& estimates, std::string_view measure,
                                    std::initializer_list<Place> places = {});
 
-/// "> " where the value lies above what is given, "< " below, otherwise nothing.
+/// "> " or "< " if the value is only known to be above or below the printed one; otherwise empty.
 std::string_view beyond_sign(Censored censored);
 
 /// A coordinate that is a number.
@@ -104,7 +106,7 @@ StudyEstimate own_share(const Measure& measure, const std::string& participant, 
 /// @param of_logs geometric: of logarithms; without SD
 StudyEstimate mean_over_people(const std::vector<const StudyEstimate*>& people, bool of_logs);
 
-/// The mean over people; of one alone that participant's estimate with its own interval.
+/// The mean over people; for a single participant, their estimate with its interval.
 StudyEstimate over_people(const std::vector<const StudyEstimate*>& people);
 
 /// Those that the paper has a figure for, each figure once for each condition.

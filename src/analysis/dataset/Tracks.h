@@ -26,7 +26,7 @@ struct Track {
   std::vector<TrackPoint> points;  ///< the staircase's completed trials in order
   std::optional<double> jnd_g;     ///< where `censored`, what it lies beyond
   Censored censored = Censored::none;
-  /// Of a judgment its question's key, and the answers that are positive or choose a cube.
+  /// For judgments: the question's key, and the answers that are positive or choose a cube.
   std::string question{};
   std::vector<std::string> positive{};
   bool chooses_cube = true;  ///< otherwise answers are positive or negative

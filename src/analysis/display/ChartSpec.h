@@ -1,4 +1,4 @@
-// Charts as declarations: what is drawn against what. ChartShapes.cpp draws each shape.
+// Declarations of charts: measures, axes and splits. ChartShapes.cpp draws each shape.
 #pragma once
 
 #include <algorithm>

@@ -38,7 +38,7 @@ struct Compared {
   auto operator<=>(const Compared&) const = default;
 };
 
-// Of one participant, by trial.
+// Settings of one participant, by trial.
 struct Settings {
   std::vector<double> set_g, start_g;
 };

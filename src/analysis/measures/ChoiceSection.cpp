@@ -56,7 +56,7 @@ void put_choices(Estimates& all, const StudyEstimate& at, const Counts& counts,
   put(rate_estimate(at_zero, rate_of(counts.at_zero)));
 }
 
-// One level after the other, so that no more than one's counts are in memory.
+// One level at a time, so that only its counts are in memory.
 void put_levels(Estimates& all, StudyEstimate place, ComparedTrials sorted,
                 const ComparisonTrials& of) {
   std::ranges::stable_sort(sorted, {}, &ComparedTrial::level_g);

@@ -1,5 +1,5 @@
-// How choices in comparisons go with the difference: curves of what was chosen, response times, and
-// hits against false alarms of each participant.
+// Comparisons by difference: curves of choices and response times, and hits against false alarms of
+// each participant.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -51,7 +51,7 @@ struct Answers {
   bool has_logarithms() const {
     return question && question->kind == QuestionKind::number && question->least > 0;
   }
-  // In the question's order; those that were given if that is unknown.
+  // Choices in the question's order; if it is unknown, those that were given.
   std::vector<std::pair<double, std::string>> choices() const {
     std::vector<std::pair<double, std::string>> all;
     if (question) {

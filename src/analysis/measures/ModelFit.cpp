@@ -1,4 +1,4 @@
-// Whether the indecision model predicts what was seen, along the staircases that people ran.
+// Whether the indecision model predicts the observed figures, along the staircases that people ran.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -26,8 +26,8 @@ class Section {
   virtual void add(const SessionData& /*data*/) {}
   /// Adds the estimates over participants to the summary. What they alone were made of may go.
   virtual void put(Summary& summary) = 0;
-  /// Each participant's own, made where they are printed: of a thousand participants they would be
-  /// most of what is in memory. @param summary that they belong to
+  /// Estimates of each participant, computed when they are printed, because they would take most of
+  /// the memory of a large study. @param summary that they belong to
   virtual Estimates of_participants(const Summary& /*summary*/) const { return {}; }
   /// The results in short sentences, for the first screen and the top of the report.
   virtual std::vector<std::string> findings(const Summary& /*summary*/) const { return {}; }

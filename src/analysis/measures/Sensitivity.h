@@ -42,8 +42,8 @@ void put_model_fit(Estimates& all, std::span<const ReferenceSensitivity> rows,
                    const ComparisonTrials& trials, StaircaseRuns& runs);
 EstimateTable model_fit_table();
 EstimateTable predictive_checks_table();
-/// What the predictive checks say: which figures the model misses; that it misses none. Empty: it
-/// is the other one, or nothing was checked.
+/// Sentence on the predictive checks: the figures that the model misses, or that it misses none.
+/// Empty: the other one applies, or nothing was checked.
 std::string misfit_sentence(const Estimates& all);
 std::string fit_sentence(const Estimates& all);
 

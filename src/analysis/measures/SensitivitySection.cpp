@@ -120,7 +120,8 @@ void put_started(Estimates& all, StudyEstimate of, const char* staircases, const
     put_value(all, of, jnd_by_start, jnd->value, jnd->censored);
 }
 
-// Of the staircases that began high and low; of a single start all are from above.
+// Mean start and JND of staircases that began high and low. With a single start, all are from
+// above.
 void put_starts(Estimates& all, const StudyEstimate& of, const Results& results) {
   const auto [low, high] = std::ranges::minmax(results, {}, &StaircaseResult::start_g);
   const double middle_g = (low->start_g + high->start_g) / 2;

@@ -36,7 +36,7 @@ constexpr Measure labels{"sorting_confusion_count", "", "labels",
 // Number of cubes -> labels given [cube][label], both from the lightest on.
 using LabelMatrices = std::map<int, std::vector<std::vector<int>>>;
 
-// Which label each cube got, both by rank.
+// Counts labels by cube, both by rank.
 void count_labels(LabelMatrices& matrices, std::span<const double> masses_g,
                   std::span<const std::optional<Label>> given) {
   const auto names = Sorting::labels_for(static_cast<int>(masses_g.size()));
@@ -90,7 +90,7 @@ StudyEstimate share(const Tallies& tallies, std::string of, std::string answer,
   return estimate;
 }
 
-// As the share of answered trials that are correct.
+// The share of answered trials that are correct, with the 90 % interval of the equivalence test.
 StudyEstimate equivalence_of(const Tallies& answered_correct) {
   StudyEstimate estimate = share(answered_correct, "answered", "correct", nullptr);
   estimate.measure = &equivalence;

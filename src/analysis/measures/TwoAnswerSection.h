@@ -22,7 +22,7 @@ struct TwoWayAnswer {
   bool counted = false;  ///< it is the answer whose share is shown
 };
 
-/// What a participant's answers say.
+/// Fit of one participant's answers.
 struct TwoAnswerFit {
   FittedParameter threshold;
   std::optional<FittedParameter> second;  ///< shown beside the threshold

@@ -85,7 +85,7 @@ std::string trials_in_words(const Summary& summary, std::string done) {
   return text + (done.empty() ? "" : "; " + done) + '.';
 }
 
-// Who answered, where the reader could take the results for more than they are.
+// States who answered if the results could be taken for more general than they are.
 std::string generality_sentence(const Summary& summary) {
   if (summary.sessions.empty()) return "";
   const bool is_one = summary.n_participants == 1;
@@ -160,7 +160,8 @@ std::string staircase_sentence(const Summary& summary) {
   return text;
 }
 
-// By reason: "The threshold is not identifiable at 200 g in C2 (complete separation)."
+// One sentence for each reason: "The threshold is not identifiable at 200 g in C2 (complete
+// separation)."
 std::string threshold_sentence(const Summary& summary) {
   std::vector<std::pair<std::string, std::vector<std::string>>> by_reason;
   for (const StudyEstimate* one : estimates_of(summary.estimates, "threshold_75")) {

@@ -165,7 +165,7 @@ Judgment judge_first_try(const StudyEstimate& first_try) {
   return {HypothesisVerdict::inconclusive, figures};
 }
 
-// In the paper's technique and at its references.
+// Estimates in the paper's technique and at its references.
 std::vector<const StudyEstimate*> papers(const Summary& summary, std::string_view measure) {
   auto rows = estimates_of(summary.estimates, measure);
   std::erase_if(rows, [](const StudyEstimate* one) { return !one->as_published; });

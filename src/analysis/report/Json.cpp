@@ -36,7 +36,7 @@ std::vector<std::string> parts_of(const std::string& path) {
   return parts;
 }
 
-// One row of a table on its way into the tree.
+// A row's path in the JSON tree.
 class RowPath {
  public:
   RowPath(const Table& table, const std::vector<Cell>& row) : table_(table), row_(row) {}

@@ -1,5 +1,5 @@
-// The methods of a study in sentences that an author can paste: every number is the study's own,
-// from its logs and the protocols in them.
+// The methods of a study as text for a paper; every number comes from the study's logs and their
+// protocols.
 #pragma once
 
 #include <string>

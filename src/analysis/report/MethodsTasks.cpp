@@ -73,7 +73,7 @@ std::string in_words(const Adjustment::Block& block) {
       block.start_g[1], block.steps_g[0], block.steps_g[1], block.lowest_g(), block.highest_g());
 }
 
-// Of up-down staircases with one rule: all but reference, start and steps.
+// The rule that several up-down staircases share: all but reference, start and steps.
 std::string rule_of(const UpDownConfig& rule, const Comparison::Block& block) {
   const bool correct = block.positive_answer == PositiveAnswer::correct_choice;
   const bool same = block.answers == ComparisonAnswers::same_different;

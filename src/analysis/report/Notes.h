@@ -38,7 +38,7 @@ class NotesCollector {
 
   std::map<std::string, int> n_sessions_;         // by participant
   std::map<std::string, std::string> protocols_;  // names, by content
-  /// Of the thresholds, by the block of their judgments; JNDs of comparisons have none.
+  /// Methods of the thresholds by block of judgments; "" for JNDs of comparisons.
   std::map<std::string, std::set<std::string>> methods_;
   std::vector<std::string> dragged_;
   PictureCounts pictures_;

@@ -14,7 +14,7 @@ namespace heft {
 namespace {
 constexpr std::size_t text_width = 102;
 
-// Where comparisons have no JND, says so rather than leave it out.
+// A sentence if comparisons have no JND.
 std::string absences(const Summary& summary) {
   const bool compared =
       std::ranges::any_of(estimates_of(summary.estimates, "comparisons"),

@@ -14,10 +14,10 @@ namespace heft {
 /// The tables of these places, of records and of estimates, with rows or without.
 std::vector<Table> tables_at(const Summary& summary, const std::vector<TablePlace>& places);
 
-/// Those over participants, then each participant's.
+/// Estimates over participants, then those of each participant.
 Estimates all_estimates(const Summary& summary);
 
-/// Those of them that have rows.
+/// The tables that have rows.
 std::vector<Table> filled(std::vector<Table> tables);
 
 /// Title, notes, tables and hypotheses.

@@ -62,10 +62,10 @@ std::vector<CheckResult> check_camera(Camera& camera, const Apparatus& apparatus
 /// How late the participant's display shows a frame, by a camera that looks at it
 /// (DisplayDelay.cpp).
 struct DisplayDelay {
-  /// Of each change of the patch that was seen: from the frame's presentation to its light, between
-  /// the last picture without and the first one with it, and to that picture's arrival. A single
-  /// one is uncertain by half the time between pictures; their mean is not, because the changes
-  /// come at random moments.
+  /// For each change of the patch that was seen: time from the frame's presentation to its light,
+  /// halfway between the last picture without and the first one with it, and to that picture's
+  /// arrival. A single time is uncertain by half the time between pictures; their mean is not,
+  /// because the changes come at random moments.
   std::vector<double> light_s, picture_s;
   double between_pictures_s = 0;  ///< median
   int n_missed = 0;               ///< changes that no picture showed in time
@@ -95,16 +95,16 @@ using Pictures = std::vector<LookedAt>;
 std::vector<CheckResult> lock_verdicts(const CameraMode& mode);
 CheckResult rate_verdict(const Pictures& pictures, double wanted_rate_hz);
 CheckResult light_verdict(const Pictures& pictures);
-/// Of the board's edges; pictures without the board do not count.
+/// Blur of the board's edges; pictures without the board do not count.
 CheckResult sharpness_verdict(const Pictures& pictures);
 CheckResult noise_verdict(const Pictures& pictures);
-/// Of the camera's temporal denoising.
+/// Mixing of successive pictures by the camera's temporal denoising.
 CheckResult ghosting_verdict(const Pictures& pictures);
 CheckResult flicker_verdict(const Pictures& pictures);
 CheckResult gain_verdict(const Pictures& pictures);
 /// Lost or repeated, by the pictures' times and numbers.
 CheckResult lost_verdict(const Pictures& pictures);
-/// Of a lens that refocuses, by the board's perspective.
+/// Changes of the focal length by a lens that refocuses, from the board's perspective.
 CheckResult breathing_verdict(const Pictures& pictures);
 inline constexpr int light_block_px = 16;
 /// Light of a picture's square blocks, row by row, from its first channel.
@@ -114,7 +114,7 @@ void compare_light(const std::vector<double>& before, const std::vector<double>&
                    LookedAt& seen);
 /// Second prints with the numbers of the board's or the effector's tags.
 CheckResult doubles_verdict(const Pictures& pictures);
-/// Of the board's tags relative to the distances between them.
+/// Size of the board's tags relative to the distances between them.
 CheckResult tag_size_verdict(const Pictures& pictures);
 /// @param name of the result  @param what name of the body in messages
 CheckResult print_scale_verdict(const MarkerBody& body, const char* name, const char* what);
@@ -125,7 +125,7 @@ CheckResult board_verdict(const Pictures& pictures, const MarkerBody& board,
                           const std::string& why = "");
 CheckResult jitter_verdict(const Pictures& pictures);
 CheckResult effector_verdict(const Pictures& pictures, const std::string& why = "");
-/// Of all stages from the camera to the drawn picture.
+/// Latency of all stages from the camera to the drawn picture.
 CheckResult latency_verdict(const Pictures& pictures);
 CheckResult speed_verdict(const Pictures& pictures, const Intrinsics& camera,
                           double wanted_rate_hz);

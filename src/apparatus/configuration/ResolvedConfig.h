@@ -89,8 +89,7 @@ class ResolvedConfig {
   /// The same for another session, with another simulated participant.
   ResolvedConfig with_seed(std::uint64_t seed) const;
 
-  /// The same with the simulation that its sessions will belong to: this seed, so many
-  /// participants.
+  /// The configuration of sessions of a simulation: with this seed and the number of participants.
   ResolvedConfig of_simulation(int participants) const;
 
  private:

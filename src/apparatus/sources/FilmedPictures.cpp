@@ -188,7 +188,7 @@ std::optional<Picture> SyntheticPictures::next() {
   return picture;
 }
 
-// As for a real camera, with the effector held still over the board.
+// The checks of a real camera, with the effector held still over the board.
 std::vector<CheckResult> SyntheticPictures::check(double wanted_rate_hz) {
   constexpr std::uint64_t n_looked_at = 15;
   const auto held = [](double) -> std::optional<Pose> {

@@ -124,7 +124,7 @@ ViewCollector board_views(Camera& camera, const MarkerBody& board, const Calibra
   return views;
 }
 
-// Refuses too few views, and says which to film.
+// Refuses too few views, with advice on which to film.
 void require_views(const ViewCollector& views, const MarkerBody& board) {
   if (views.size() >= least_views) return;
   std::string missing;

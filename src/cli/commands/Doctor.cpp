@@ -181,7 +181,7 @@ std::vector<DisplayFacts> displays_if_any() try {
   return {};
 }
 
-// From a touch to disk and display. One of fifty may be late.
+// Measures the delay from a touch to disk and display. One of fifty may be late.
 void check_touch_delay(Report& report, const std::string& folder, const ScreenTexts& texts,
                        const std::vector<DisplayFacts>& found) try {
   constexpr int n_taps = 50;
@@ -256,7 +256,7 @@ void keep_latency(const std::string& file, DisplayMeasures measured, const Displ
   print("{} has it as [latency]: sessions with this display record it in their setup\n", file);
 }
 
-// With the camera looking at the participant's display.
+// Requires that the camera films the participant's display.
 void measure_latency(const SessionOptions& given, double rate_hz, int display) {
   constexpr int n_changes = 60;
   if (!given.tracker || given.tracker->name != "camera")

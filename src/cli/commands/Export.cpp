@@ -25,7 +25,7 @@ struct ExportOptions {
   bool pseudonymise = false, unverified = false;
 };
 
-// Beside the folder, never in it, because the folder is shared.
+// Beside the folder, not in it, because the folder is shared.
 std::string key_file_of(const ExportOptions& options) {
   namespace fs = std::filesystem;
   std::string folder = options.out;

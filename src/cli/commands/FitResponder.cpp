@@ -140,7 +140,7 @@ std::string as_json(const ResponderFit& fit, int people, std::uint64_t seed) {
   return root.dump(2) + "\n";
 }
 
-// The model's file with the fitted values; what was not free stays.
+// The model's file with the fitted values; other parameters are unchanged.
 std::string model_file(const ResponderFit& fit, const ResponderOptions& given,
                        const FitResponderOptions& options) {
   std::string text = fmt::format("# Fitted by heft fit-responder to {}{}.\n", options.data(),

@@ -79,7 +79,7 @@ std::string json_number(const std::optional<double>& number) {
   return number ? fmt::to_string(*number) : "null";
 }
 
-// With the first of its estimates, and why a Bayesian kind gives none.
+// The event with the first estimate, and the reason if a Bayesian kind gives none.
 std::string finished_event(const Procedure& staircase, StopReason reason) {
   const Estimate estimate = staircase.estimates().front();
   std::string bayesian;

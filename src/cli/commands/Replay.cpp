@@ -181,7 +181,7 @@ ChangedConfig changed_config(const LoggedSession& session, const ReplayOptions& 
   return {*protocol_for(std::move(protocol), config), std::move(config)};
 }
 
-// The responder's own hand, without camera or view.
+// Runs trials again with the responder's own hand, without camera or view.
 OtherResponder run_again(const LogReader& reader, const LoggedSession& session,
                          const ResponderChoice& responder, const ChangedConfig& changed_config) {
   SessionOptions given;

@@ -35,7 +35,7 @@ struct BlockProgress {
   int n_completed = 0, n_void = 0;
 };
 
-// In their order in the session.
+// Progress of blocks, in the order of the session.
 std::vector<BlockProgress> progress_of(const std::vector<TrialRow>& trials) {
   std::vector<BlockProgress> blocks;
   for (const TrialRow& trial : trials) {

@@ -64,7 +64,7 @@ Error output_error(const std::string& reason);
 /// "31 of about 70"; "71" if the expected number is exceeded.
 std::string of_about(int n_done, double expected, std::string_view between = " of about ");
 
-/// On stderr, if it is a terminal.
+/// A progress bar on stderr, if that is a terminal.
 class ProgressBar {
  public:
   /// @param label of the work in progress

@@ -93,7 +93,7 @@ struct ModelPower {
   std::optional<PowerAtSize> whole;  ///< one size of the same studies by level hand
 };
 
-/// Hypotheses and the main figures at three sizes, and what they mean.
+/// Prints hypotheses, the main figures at three sizes, and sentences on them.
 /// @param tables every size and figure
 void print_power(const ModelPower& found, bool tables);
 
@@ -121,7 +121,7 @@ struct WordFaults {
   std::vector<Mistake> mistakes;
 };
 
-/// Of a text file alone, at normal and at large text size.
+/// Faults of a text file alone, at normal and at large text size.
 WordFaults faults_in_words(const ScreenTexts& texts, const std::string& file);
 
 /// Of all texts in a participant's session: the protocol's texts and questionnaires at the

@@ -11,7 +11,7 @@
 namespace heft::cli {
 
 namespace {
-// Of the session's protocol with its settings.
+// Expected trials of the session's protocol with its settings.
 std::optional<double> planned_trials(const LogReader& reader, const SessionRow& row) try {
   const auto setups = reader.setups(row.session_id);
   const auto settings =

@@ -36,23 +36,26 @@ GoodnessOfFit check_psychometric(const AnswersByLevel& answers, const FitOptions
                                  const Fit& fit);
 GoodnessOfFit check_indecision(const AnswersByLevel& answers, const FitOptions& options,
                                const Fit& fit);
-/// Of fit_forced_choice.
+/// Goodness of fit_forced_choice().
 GoodnessOfFit check_forced_choice(const AnswersByLevel& answers);
-/// Of fit_same_different with fixed_lapse. Levels of either sign are one, as that fit has them.
+/// Goodness of fit_same_different() with fixed_lapse. Levels of either sign are merged, as in that
+/// fit.
 GoodnessOfFit check_same_different(const AnswersByLevel& answers);
 
-// How likely other answers at a fit's levels are once they are fitted, too: a search that begins at
-// the first fit, without intervals and reasons.
+// Log likelihoods of refits to simulated answers at a fit's levels: a search from the first fit,
+// without intervals and reasons.
 
-/// As fit_psychometric; in PsychometricFit.cpp. @param near identifiable, with these options
+/// Log likelihood of fit_psychometric(); in PsychometricFit.cpp. @param near identifiable, with
+/// these options
 double refitted_psychometric(const AnswersByLevel& answers, const FitOptions& options,
                              const Fit& near);
 
-/// As fit_indecision; in IndecisionFit.cpp. @param near identifiable, with these options
+/// Log likelihood of fit_indecision(); in IndecisionFit.cpp. @param near identifiable, with these
+/// options
 double refitted_indecision(const AnswersByLevel& answers, const FitOptions& options,
                            const Fit& near);
 
-/// As fit_same_different; in IndecisionFit.cpp. @param near identifiable
+/// Log likelihood of fit_same_different(); in IndecisionFit.cpp. @param near identifiable
 double refitted_same_different(const AnswersByLevel& answers, const Fit& near);
 
 /// What fit_forced_choice fits with.

@@ -1,8 +1,7 @@
-// Does the mixed indecision model predict a study? People who are drawn from the fitted population
-// run the same procedures, from the first trial on: the levels of a staircase depend on its
-// answers, so that answers at the levels that were shown would not be what the model predicts. What
-// such studies come out as stands beside what was seen (posterior predictive checks, with the
-// estimate in place of a posterior: Gelman, Meng & Stern 1996).
+// Posterior predictive checks of the mixed indecision model, with the estimate in place of a
+// posterior (Gelman, Meng & Stern 1996): people drawn from the fitted population run the same
+// procedures from the first trial, since a staircase's levels depend on its answers. Figures of
+// these simulated studies are compared with the observed ones.
 #pragma once
 
 #include <memory>
@@ -35,7 +34,7 @@ struct StaircaseRun {
   std::vector<MadeChoice> choices{};        ///< in order
 };
 
-/// What one person did at one reference in one condition.
+/// One person's trials at one reference in one condition.
 struct PersonRuns {
   std::vector<StaircaseRun> staircases;
   int n_catch = 0, n_catch_none = 0;  ///< catch trials, and those answered "no difference"
@@ -46,11 +45,11 @@ struct PredictedFigure {
   std::string name;
   double seen = 0;
   double mean = 0, sd = 0, low = 0, high = 0;  ///< of predicted studies; 95 % of them
-  /// In SDs from what is predicted.
+  /// Distance from the predicted mean, in SDs.
   double deviation() const { return (seen - mean) / sd; }
 };
 
-/// Shares of choices between two levels; none where no trial was there.
+/// Shares of choices between two levels; none if there was no trial.
 struct PredictedShares {
   struct Band {
     double mean = 0, low = 0, high = 0;
@@ -61,8 +60,8 @@ struct PredictedShares {
 struct PredictiveCheck {
   std::vector<PredictedFigure> figures;
   std::vector<PredictedShares> by_level;  ///< between one edge and the next
-  /// The share of predicted studies that have a figure as many SDs from what is predicted as the
-  /// one that is farthest in the study seen.
+  /// Share of predicted studies in which some figure deviates as many SDs as the farthest observed
+  /// one.
   double p = 1;
 
   const PredictedFigure& farthest() const;  ///< of at least one figure

@@ -1,4 +1,4 @@
-// The probability of a rank order, by recursion along the axis of what is perceived.
+// The probability of a rank order, by recursion along the axis of percepts.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,7 +18,7 @@ struct Sloped {
   Curve value, slope;
 };
 
-// From the left end up to each point: trapezoids, and Euler and Maclaurin's next term.
+// Integral from the left end to each point: trapezoids with the next Euler-Maclaurin term.
 Curve integral_up_to(const Sloped& of) {
   Curve sum(of.value.size());
   double trapezoids = 0;

@@ -29,7 +29,7 @@ using RankOrder = std::vector<double>;
 /// How often each person gave which order.
 using OrdersByPerson = std::map<std::string, std::map<RankOrder, int>>;
 
-/// Of two stimuli: how much higher one is perceived.
+/// Difference of the perceived values of two stimuli.
 struct PerceivedDistance {
   std::optional<double> value{};  ///< none: not identifiable
   std::optional<Interval> interval{};
@@ -56,7 +56,7 @@ std::vector<PerceivedStimulus> perceived_values(const OrdersByPerson& people);
 /// their influences do.
 Contrast perceived_contrast(const PerceivedDistance& from, const PerceivedDistance& to);
 
-/// Of log P(X_1 < ... < X_n), by the values.
+/// log P(X_1 < ... < X_n) and its derivatives by the values.
 struct RankingProbability {
   double log_p = 0;
   Eigen::VectorXd gradient;

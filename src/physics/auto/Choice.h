@@ -38,7 +38,7 @@ struct KnownError {
 
 inline constexpr double auto_rate_hz = 240;
 
-/// By cost: the cheaper simulator first.
+/// Known errors, cheapest simulator first.
 std::span<const KnownError> known_errors();
 
 /// Whether a simulator models compliant contacts.

@@ -22,7 +22,7 @@ struct Motion {
   bool rotates = false;  ///< false: impulses do not rotate it
   double mean_per_constrained = 0;
   Eigen::Matrix3d mean_rotation_per_constrained = Eigen::Matrix3d::Zero();  ///< of driven bodies
-  // Of the last sweep, for BoxWorld::accelerate().
+  // Velocities of the last sweep, for BoxWorld::accelerate().
   Velocity sweep_start{}, sweep_change{}, sweep_end{};
 
   /// Sets `free` and `constrained` from `mean` and `end`.

@@ -12,7 +12,8 @@ constexpr double resting_m_s = 1e-4, resting_rad_s = 5e-3, resting_for_s = 0.25;
 // Speculative margin of the contact detection, in addition to the bodies' motion in a step.
 constexpr double contact_margin_m = 0.1e-3;
 constexpr double speed_gain_m_s = 0.1;  // upper bound within a step
-// Of the neighbor list beyond the detection margin: distance that bodies move before it is renewed.
+// Margin of the neighbor list beyond the detection margin: distance that bodies move before it is
+// renewed.
 constexpr double list_margin_m = 0.02;
 constexpr double min_travel_m = 0.1e-3;  // smaller ones need no swept contact detection
 constexpr double separated_m = 1e-6;     // gap after one box has slid off another

@@ -101,7 +101,7 @@ class LogReader::Impl {
     refuse_damaged("the seals", error);
   }
 
-  /// Of the last seal that satisfies an SQL condition.
+  /// Head of the last seal that satisfies an SQL condition; empty: there is none.
   template <typename... Values>
   std::string head(std::string_view condition, const Values&... values) const {
     const auto heads =

@@ -72,7 +72,7 @@ class LogReader {
   std::vector<LoggedEvent> events(std::int64_t session_id) const;
   /// Events of some kinds only, which is faster.
   std::vector<LoggedEvent> events(std::int64_t session_id, std::span<const EventKind> kinds) const;
-  /// With the contents of files.
+  /// Configurations, with the contents of files.
   std::vector<LoggedSetup> setups(std::int64_t session_id) const;
   std::vector<TrialRow> trials(std::int64_t session_id) const;  ///< masses are those of their cubes
   std::vector<CubeRow> cubes(std::int64_t session_id) const;

@@ -54,7 +54,7 @@ struct AnnouncedEvent {
   std::string participant;
   std::string utc;                ///< of the event
   std::optional<TrialPlan> plan;  ///< of the event's trial
-  /// Of an event that is announced twice: immediately, and when it is on disk.
+  /// For an event that is announced twice: whether it is on disk.
   std::optional<bool> logged = {};
 };
 

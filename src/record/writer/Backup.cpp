@@ -32,7 +32,7 @@ std::string system_reason() {
   return std::strerror(errno);
 }
 
-// For its owner only.
+// Creates the folder, accessible by its owner only.
 void make_backup_folder(const fs::path& folder) {
   std::error_code error;
   if (!fs::create_directories(folder, error)) {

@@ -91,7 +91,7 @@ bool holds_session(const fs::path& file, const std::string& participant,
   return binding.step();
 }
 
-// As a cell or a word: not a part of another id.
+// Whether the id is a cell or a word of the text, not a part of another id.
 bool names_participant(const std::string& text, const std::string& participant) {
   const auto is_outside = [&](std::size_t at) {
     return at >= text.size() || (std::isalnum(static_cast<unsigned char>(text[at])) == 0);

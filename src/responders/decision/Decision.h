@@ -42,9 +42,10 @@ class Decision {
 /// The answer of a model that does not look, for a trial of any task.
 Answer blind_answer(const TrialView& trial, const WithoutPercepts& unseen, RandomStream& stream);
 
-/// Each answer equally likely; whole numbers of a number's range. None for questions that are
-/// answered to the experimenter.
-/// @param seed the responder's  @param key in the log: every question has its own draws
+/// A random answer, all equally likely; of a range of numbers a whole one. None for questions that
+/// are answered to the experimenter.
+/// @param seed the responder's
+/// @param key in the log: every question has separate draws
 std::optional<std::string> any_answer_to(const FormQuestion& question, std::uint64_t seed,
                                          const std::string& key);
 

@@ -80,7 +80,7 @@ class Hand {
     Eigen::Vector3d cube_start_m{0, 0, 0};
     bool stopped = false;  ///< before its planned end
   };
-  /// The push at the end of the last planned movement; none: it goes elsewhere.
+  /// The push at the end of the last planned movement; none: the movement is no push.
   const std::optional<Stroke>& stroke() const { return pushed_; }
 
  private:

@@ -170,7 +170,7 @@ std::vector<FrameRow> frames_of(const LogReader& log, std::int64_t session_id, i
   return frames;
 }
 
-// As it was recorded while it was computed.
+// The session as its shard recorded it.
 RecordedSession ShardLogs::session(int number) {
   const auto [shard, session_id] = places_.at(number);
   const LogReader& log = readers_[shard];

@@ -24,7 +24,7 @@ struct ParticipantNumbers {
   int first = 1, step = 1, count = 0;
 
   int at(int place) const { return first + place * step; }
-  /// Those after the first n.
+  /// The numbers after the first n.
   ParticipantNumbers after(int n) const { return {at(n), step, count - n}; }
 };
 

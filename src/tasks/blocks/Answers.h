@@ -37,7 +37,7 @@ struct EnumNames<Meaning> {
                                                          "none"};
 };
 
-/// Of each choice, by its value.
+/// Meanings of choices, by their values.
 using Meanings = std::vector<std::pair<std::string, Meaning>>;
 
 /// @param choice null: no answer  @return none: it has no meaning

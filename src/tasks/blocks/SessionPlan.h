@@ -87,7 +87,7 @@ class TaskBlock {
   bool lacks_question() const { return of_task_->lacks_question(); }
   /// Why the question does not suit the block; none: it does.
   std::optional<std::string> mistake_in_question() const { return of_task_->mistake_in_question(); }
-  /// Its procedures; empty: it has none.
+  /// Its procedures, if any.
   std::span<const ReferenceStaircase> staircases() const { return of_task_->staircases(); }
   /// Which of the task's wordings its instructions have; empty: the usual one.
   std::string_view wording() const { return of_task_->wording(); }
@@ -97,8 +97,8 @@ class TaskBlock {
     if (practice) choices.emplace_back("practice in " + name(), practice->in_words());
     return choices;
   }
-  /// With all practice trials. Mean over simulated participants if the number depends on the
-  /// answers.
+  /// Expected number of trials with all practice trials; the mean over simulated participants if it
+  /// depends on the answers.
   double expected_trials() const {
     return of_task_->expected_trials() + (practice ? practice->trials : 0);
   }

@@ -1,5 +1,6 @@
-// The procedures of a block, interleaved: which one the next trial belongs to, what its responses
-// change, how long it takes. Tasks say what a trial shows at a level and what an answer responds.
+// The procedures of a block, interleaved: which one the next trial belongs to, how responses change
+// them, how long they take. Tasks define what a trial shows at a level, and which response an
+// answer is.
 #pragma once
 
 #include <cstddef>

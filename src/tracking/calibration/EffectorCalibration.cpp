@@ -38,7 +38,7 @@ double misfit(const MarkerBody& effector, const Intrinsics& camera, const TagVie
   return sum;
 }
 
-// Of all poses that single tags of the view allow, the one that fits all tags best.
+// The pose, among those that single tags of the view allow, that fits all tags best.
 Pose first_pose(const MarkerBody& effector, const Intrinsics& camera, const TagView& view) {
   Pose best;
   double least = std::numeric_limits<double>::infinity();

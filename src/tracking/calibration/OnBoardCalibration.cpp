@@ -17,7 +17,8 @@ namespace heft {
 
 namespace {
 constexpr double corner_sd_px = 0.05;
-// Of the box relative to its tags: folded paper, and axes that are the tags' best fit.
+// Prior SDs of the box's place relative to its tags: folded paper, and axes that are the tags' best
+// fit.
 constexpr double box_place_sd_m = 0.0003, box_turn_sd_rad = 0.01;
 constexpr double bias_sd_px = 0.2, other_bias_sd_px = 0.01;  // the effector's less the board's
 constexpr double places_differ_sd = 0.01;                    // scale of places less that of tags
@@ -187,7 +188,8 @@ class Problem {
   const std::vector<StandingView>& views_;
 };
 
-// The effector is not where the others say, perhaps because it was lifted or does not stand flat.
+// Leaves out views that contradict the others, perhaps because the effector was lifted or not flat
+// on the board.
 std::vector<StandingView> without_outliers(const Problem& problem, const Unknowns& at,
                                            const std::vector<StandingView>& views) {
   constexpr double times_median = 3, never_below_px = 0.15;

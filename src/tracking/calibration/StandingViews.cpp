@@ -57,7 +57,7 @@ std::optional<Standing> put_down(const MarkerBody& effector, const Pose& board_f
   return nearest;
 }
 
-// Of the poses that single tags allow, the one that is nearest to standing.
+// The pose, among those that single tags allow, that is nearest to standing.
 std::optional<Standing> standing_in(const TagView& view, const MarkerBody& effector,
                                     const Intrinsics& camera, const Pose& camera_from_board) {
   std::optional<Standing> nearest;

@@ -104,7 +104,7 @@ TagPrint print_of_tags(const MarkerBody& board, const Intrinsics& camera,
   for (const CellBias& view : views) excesses.push_back(view.tag_excess);
   print.excess = *quantile(excesses, 0.5);
   for (const double excess : excesses) deviations.push_back(std::abs(excess - print.excess));
-  // Of a median, from the median deviation (normal distribution).
+  // SD from the median deviation, and standard error of a median (normal distribution).
   constexpr double sd_by_deviation = 1.4826, of_median = 1.2533;
   print.excess_sd =
       std::hypot(excess_model_sd, of_median * sd_by_deviation * *quantile(deviations, 0.5) /

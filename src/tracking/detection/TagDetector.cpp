@@ -110,7 +110,7 @@ Region whole(const Image& image) {
 }
 
 namespace {
-// Of a side, so that parts overlap.
+// Length of parts of a side, so that they overlap.
 int more_than_half(int px) {
   return px * 13 / 20;
 }

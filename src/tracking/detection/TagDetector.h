@@ -36,7 +36,7 @@ Region quarter_of(const Image& gray, int number);
 /// grid.
 double noise_of(const Image& gray);
 
-/// Where to search for tags' edges.
+/// Places where edges of tags are searched.
 enum class EdgeSearch {
   above_noise,  ///< above the picture's noise: several times faster, misses only tags in deep
                 ///< shadow

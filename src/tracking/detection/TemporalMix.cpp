@@ -89,8 +89,8 @@ void TemporalMix::learn(double noise) {
   share_ = share < least_share ? 0 : std::min(share, most_share);
 }
 
-// Where black became white or white black, a mixed picture shows at most the share's complement of
-// that change.
+// Whether moving parts are not mixed: a mixed picture would have at most 1 - share of a change from
+// black to white or back.
 bool TemporalMix::spares_motion() const {
   const Image &now = seen_[0].gray, &before = seen_[1].gray;
   const double most_change = (1 + 2 * (1 - share_)) / 3;

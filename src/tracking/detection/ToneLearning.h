@@ -37,7 +37,7 @@ class ToneLearner {
  private:
   ToneCurve curve_;
   ToneBend bend_ = ToneBend::Zero();  ///< most likely; the curve's is nearer to sRGB
-  // Of the previous pictures, and of this one:
+  // From the previous pictures, and from this one:
   ToneBend mean_ = ToneBend::Zero();
   Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero(), seen_ = Eigen::Matrix3d::Zero();
 };

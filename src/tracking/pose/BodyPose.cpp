@@ -25,7 +25,7 @@ constexpr double halved_at_px = 1.0, halved_at_m = 0.0005;
 // centimeter there is useless.
 constexpr double halved_at_end_m = 0.002;
 constexpr double same_pose_rad = 0.01;
-// So many tags whose corners are as close as this to their expected places leave no ambiguity.
+// This many tags whose corners are that close to their expected places leave no ambiguity.
 constexpr std::size_t undoubted_tags = 6;
 constexpr double undoubted_px = 0.5;
 constexpr double expected_sd_rad = 0.1;  // of a rotation predicted from the previous picture

@@ -1,4 +1,4 @@
-// Which of a picture's tags belong to a body: a second print of the same tags may lie in view.
+// Which of a picture's tags belong to a body: a second print of the same tags may be in view.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace heft {
 
-/// Whether the body's origin is above the table's plane; always true where no table is known. A
-/// spare net of an effector that lies on the table would put the effector half into it.
+/// Whether the body's origin is above the table's plane; true if no table is known. A spare print
+/// of an effector's tags on the table would put the effector half into the table.
 bool is_above(const std::optional<Pose>& camera_from_table, const Pose& camera_from_body);
 
 /// The tags that fit one pose of the body, each once; all of them if none is there twice and none

@@ -9,7 +9,8 @@ double row_s(const Intrinsics& camera, double row) {
   return camera.readout_s * std::clamp(row / camera.height_px, 0.0, 1.0);
 }
 
-// Where on an edge a measured point lies, 0 at its start: by the corners as they were measured.
+// Position of a measured point on an edge, 0 at its start and 1 at its end, from the measured
+// corners.
 double fraction_along(const TagObservation& tag, std::size_t edge, const Eigen::Vector2d& ray) {
   const Eigen::Vector2d start = tag.rays[edge], along = tag.rays[(edge + 1) % 4] - start;
   return std::clamp((ray - start).dot(along) / along.squaredNorm(), 0.0, 1.0);

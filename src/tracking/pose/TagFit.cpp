@@ -22,8 +22,8 @@ constexpr double far_share = 0.12, last_far_share = 0.05;
 // In variances: reflected light is correlated with distance, so that modeling an absent one would
 // cost half of the cells' information.
 constexpr double least_gain = 50;
-// A subset of a larger tag's pixels suffices; and one in so many of those in the middle of cells,
-// which only determine light.
+// A subset of a larger tag's pixels suffices: those near edges, and one of several in the middle of
+// cells, which only determine light.
 constexpr double most_pixels = 6000;
 constexpr int flat_stride = 4;
 // Distance around covering objects that is left out, in blurs.

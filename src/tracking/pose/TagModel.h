@@ -91,7 +91,7 @@ class TagModel {
   Eigen::Vector2d beyond_cells(const TagPlane& plane) const;
   Eigen::Vector2d near_cells(const TagPlane& plane) const;
 
-  /// Whether no edge of the pattern is within so many cells of a place.
+  /// Whether no edge of the pattern is near a place. @param near distance in cells
   bool is_flat(const Eigen::Vector2d& cell, const Eigen::Vector2d& near) const;
 
   double blur_px() const { return blur_px_.maxCoeff(); }

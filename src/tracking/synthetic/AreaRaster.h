@@ -109,7 +109,7 @@ class RowSpans {
 
   /// The picture's pixels that contain any of these fine ones.
   RowSpans coarse() const;
-  /// Extended by so many columns and rows, within the box.
+  /// Spans extended by columns and rows, within the box.
   RowSpans grown(int columns, int rows) const;
 
  private:

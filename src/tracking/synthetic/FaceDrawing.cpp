@@ -112,7 +112,7 @@ using Eigen::Vector3d;
 
 const Eigen::Array3f wall{0.30F, 0.30F, 0.28F};  // for rays that miss the table
 
-// Rays are computed at every so many pixels and interpolated for the wood.
+// For the wood, rays are computed at pixels this far apart and interpolated.
 constexpr int undistorted_px = 16;
 
 // Wood: soft streaks along x, all much wider than a pixel.
@@ -129,7 +129,7 @@ Eigen::Array3f behind_the_board(const Vector3d& eye_m, const Vector3d& ray) {
   return material::table * grain(point_m.x(), point_m.y());
 }
 
-// One of every so many fine pixels of a row, because wood has no finer detail.
+// One color per pixel instead of per fine pixel, because wood has no finer detail.
 void draw_wood(int y, const Vector3d& eye_m, const Eigen::Quaterniond& board_from_camera,
                const Lens& lens, std::span<Light> wood) {
   Eigen::Vector2d ray(0, 0), step(0, 0);

@@ -202,7 +202,7 @@ void FilmedHand::draw(Side side, const SeenBody& effector, const Lens& lens,
 }
 
 // For each pixel: the nearest point of the axis, its position across the cone, and thus the skin's
-// point and normal. Skin not to be drawn here gets no coverage.
+// point and normal. Pixels without skin get no coverage.
 inline FilmedHand::SkinInRow FilmedHand::SeenCone::skin_at(int x, int y, Side side,
                                                            const Surroundings& near) const {
   const Vector2f along_px = to_px - from_px;

@@ -153,7 +153,7 @@ void Sensor::expose(const LightPicture& sharp, const RowSpans& spans, Levels& le
   }
 }
 
-// Every row of every picture takes its noise from its own place in the long row.
+// Each row of each picture takes noise from a separate place in the long row.
 Image Sensor::noisy(const Levels& levels, std::uint64_t number) const {
   Image image(width_, height_, 3);
   RandomStream places(seed_, "camera noise place", number);

@@ -97,7 +97,8 @@ struct SyntheticCamera::Impl {
   Levels levels;        ///< the same, restored between pictures
   AreaRaster raster;
   LightPicture instant;  ///< the effector at one moment
-  /// In front of it and behind it, in the picture's pixels, since a hand's edges are not measured.
+  /// The hand in front of and behind the effector, in the picture's pixels, since a hand's edges
+  /// are not measured.
   LightPicture hand_before, hand_behind;
   LightPicture moving;  ///< its mean over the exposure, in the hand, in front of the still scene
   Image last;           ///< the last picture; empty after the start

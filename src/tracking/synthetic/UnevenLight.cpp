@@ -81,8 +81,8 @@ float UnevenLight::reflected(float right_px, float down_px) const {
   return squared < 30 ? glare_ * std::exp2(-squared) : 0;
 }
 
-// Of blue, green and red, at a row that is exposed row_s after the first one. The exposure's mean
-// of the light flickers less.
+// Gains of blue, green and red at a row that is exposed row_s after the first one. The mean over an
+// exposure flickers less.
 std::array<float, 3> UnevenLight::gains(double t_s, double row_s) const {
   const auto wave = [&](double period_s) { return std::sin(2 * M_PI * t_s / period_s); };
   const double half_turn = M_PI * flicker_hz * optics_.exposure_s;

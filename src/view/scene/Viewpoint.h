@@ -1,6 +1,6 @@
 // The viewpoint of a frame: projects points of the board frame to pixels through the camera's lens,
-// and clips what is behind the camera, beside the frame or below the table. Straight edges bend
-// under a lens; pieces() says how to divide long ones.
+// and clips what is behind the camera, beside the frame or below the table. A lens bends straight
+// edges: pieces() gives the number of parts of a long one.
 #pragma once
 
 #include <Eigen/Core>

@@ -18,7 +18,7 @@ Measures smallest_screen(double text_size = 1);
 /// its place. Characters that no installed font has count as wide as their replacement boxes.
 /// @return each sentence begins with the name of its page and ": "
 std::vector<std::string> texts_that_do_not_fit(const ScreenTexts& texts, const Measures& measures);
-/// Of these screens only.
+/// The same for these screens only.
 std::vector<std::string> texts_that_do_not_fit(const ScreenTexts& texts, const Measures& measures,
                                                const std::vector<ScreenState>& screens);
 
@@ -30,8 +30,8 @@ struct ControlWords {
 
 ControlWords words_on(const Control& control, const Typeface& typeface, const Measures& measures);
 
-/// Of all controls of a page, in their order. Controls of one size have letters of one size, so
-/// that no answer stands out; those with a note are apart.
+/// Words of all controls of a page, in their order. Controls of one size have letters of one size,
+/// so that no answer is emphasized; those with a note are separate.
 std::vector<ControlWords> words_on(const std::vector<Control>& controls, const Typeface& typeface,
                                    const Measures& measures);
 
