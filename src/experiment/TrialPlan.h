@@ -44,7 +44,7 @@ struct EnumNames<TrialStatus> {
   static constexpr std::array<std::string_view, 3> names{"open", "completed", "void"};
 };
 
-/// One attempt at a trial, drawn by the engine. Who looks knows its number of slots only.
+/// One attempt at a trial, drawn by the engine. Secret, except for its number of slots.
 struct TrialPlan {
   int trial_number = 0;  ///< of the planned trial, from 1; shared by its attempts
   int attempt = 1;       ///< from 1; +1 after a veto or a lost camera, unchanged after a crash

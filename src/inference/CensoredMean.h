@@ -1,5 +1,5 @@
-// The mean of figures of which some are only known to lie above or below a value, as for a
-// staircase at its ceiling or floor.
+// The mean of figures, some of which are only known to be above or below a value (censored), as
+// the estimate of a staircase at its ceiling or floor is.
 //
 // Tobit model (Tobin 1958; both sides: Rosett & Nelson 1975): the figures, or the logarithms of
 // figures that are positive, are normal with mean mu and SD sigma. An exact one counts with its
@@ -28,7 +28,7 @@ struct CensoredValue {
   Censored censored = Censored::none;  ///< none, above or below; otherwise not a value
 };
 
-/// What is normal over participants: the figures, or the logarithms of positive ones.
+/// Which are normally distributed over participants: the figures, or their logarithms.
 enum class FigureModel { normal, log_normal };
 
 struct CensoredMean {
@@ -40,7 +40,7 @@ struct CensoredMean {
 /// than two exact ones that differ, or for log_normal fewer than three or an infinite interval. A
 /// log-normal figure is positive: an exact 0, or one below 0, counts as below the smallest positive
 /// value.
-/// @param n_missing further ones of which nothing is known; they count as not exact
+/// @param n_missing number of further, unknown values; they count as not exact
 std::optional<CensoredMean> censored_mean(std::span<const CensoredValue> values, int n_missing = 0,
                                           FigureModel model = FigureModel::normal);
 

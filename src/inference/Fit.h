@@ -1,5 +1,5 @@
 // Maximum-likelihood fits of answers at several levels: psychometric functions, and the three-way
-// choice of the indecision model. An estimate that is not identifiable is not given, and `why` has
+// choice of the indecision model. An estimate that is not identifiable has no value, and `why` has
 // the reason.
 #pragma once
 
@@ -14,8 +14,8 @@
 
 namespace heft {
 
-/// The normal quantile of 75 %, with the digits that the field prints: threshold_75_g is this by
-/// the sensitivity.
+/// The normal quantile of 75 %, with the digits that are usual in the field: threshold_75_g is
+/// this, divided by the sensitivity.
 inline constexpr double z_75 = 0.6745;
 
 /// How often each answer was given, by level. Psychometric: negative, positive. Indecision:
@@ -43,23 +43,22 @@ struct Fit {
   std::optional<double> log_likelihood;  ///< without binomial coefficients
   double n_trials = 0;
   std::size_t n_levels = 0;
-  std::string why;  ///< there is no threshold; empty: there is
+  std::string why;  ///< reason that there is no threshold; empty: there is one
 
   bool identifiable() const { return why.empty(); }
   const FittedParameter& parameter(std::string_view name) const;
 };
 
-/// threshold, slope, guess, lapse. Without a threshold none of those that are free.
-/// Identifiable: no flat line is within reach (likelihood ratio at 95 %, a degree of freedom for
-/// each parameter beyond it), no step fits as well, and the threshold's interval lies within the
-/// levels or at most their range beyond them.
+/// Parameters: threshold, slope, guess, lapse. Without a threshold the free ones have no value.
+/// Identifiable: a constant probability is rejected (likelihood ratio at 95 %, a degree of freedom
+/// for each further parameter), no step fits as well, and the threshold's interval extends beyond
+/// the levels by at most their range.
 Fit fit_psychometric(const AnswersByLevel& answers, const FitOptions& options);
 
-/// sensitivity, indecision, bias, lapse, and threshold_75_g: the level that makes 75 % correct in a
-/// forced choice without bias.
-/// Identifiable: sensitivity's interval holds no 0, and the threshold's ends at most at twice the
-/// largest level or, where this is less, the range of levels. Otherwise there is no threshold; the
-/// others stay where they exist.
+/// Parameters: sensitivity, indecision, bias, lapse, and threshold_75_g: the level with 75 %
+/// correct forced choices without bias.
+/// Identifiable: the sensitivity's interval is above 0, and the threshold's ends at most at twice
+/// reach_of(). Otherwise there is no threshold, but the others may have values.
 Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options);
 
 /// Fits "same" (first) and "different" answers to two stimuli that differ by a level of either
@@ -77,7 +76,7 @@ inline constexpr double fixed_lapse = 0.02;
 struct ForcedChoiceFit {
   FittedParameter threshold;           ///< difference that makes 75 % of the choices correct
   std::optional<FittedParameter> pse;  ///< levels of both signs have one
-  std::string why;                     ///< there is no threshold; empty: there is
+  std::string why;                     ///< reason that there is no threshold; empty: there is one
 };
 
 /// Fits choices of the reference (first) and the comparison, by their difference, with fixed_lapse.

@@ -21,8 +21,8 @@ struct LevelAnswers {
   std::array<double, 3> n{};
 };
 
-/// Log likelihood of one level's answers, and its derivatives by up = felt - criterion, by down =
-/// felt + criterion and by the lapse rate. On these alone the probabilities depend.
+/// Log likelihood of one level's answers, and its derivatives by the three quantities on which it
+/// depends: up = felt - criterion, down = felt + criterion, and the lapse rate.
 struct LevelLikelihood {
   double value = 0;
   Eigen::Vector3d first = Eigen::Vector3d::Zero();

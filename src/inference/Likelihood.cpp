@@ -113,7 +113,7 @@ Maximum Likelihood::climb_by_score(Parameters from, Eigen::Index held, Accuracy 
     const Parameters step = within_reach(step_against(derivatives_.gradient, here.at, held));
     if (!(step.dot(derivatives_.gradient) > accuracy.gain)) return here;
     const double low = here.log_likelihood - accuracy.value;
-    // Whole steps may go to and fro for ever.
+    // Whole steps may alternate without end.
     Maximum there = nothing();
     for (double length = i < 10 ? 1 : 0.5; length > 1e-3 && !(there.log_likelihood > low);
          length /= 2) {

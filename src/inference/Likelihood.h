@@ -23,8 +23,8 @@ inline const Maximum& likelier(const Maximum& first, const Maximum& second) {
 }
 
 struct Accuracy {
-  double gain = 0;   ///< of a maximum: Newton's method expects to gain no more
-  double value = 0;  ///< by which values at different places may be wrong
+  double gain = 0;   ///< a maximum is where Newton's method expects no larger gain
+  double value = 0;  ///< error of values at different points
 };
 
 /// A log likelihood within bounds, and the searches for its maximum. Constructor arguments must

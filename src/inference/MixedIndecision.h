@@ -37,8 +37,8 @@ struct MixedFigure {
 
 /// One person's sensitivity per g; it may be negative. Criterion and side bias are integrated over
 /// their distribution, and the lapse rate is that of all. The ends are where the likelihood has
-/// fallen as for a 95 % profile interval, with Student's t for the number of trials; none: it never
-/// does.
+/// fallen as for a 95 % profile interval, with Student's t for the number of trials; none: the
+/// interval is unbounded.
 struct OwnSensitivity {
   double value = 0;
   std::optional<double> low{}, high{};
@@ -51,7 +51,7 @@ struct ThresholdAtLapse {
 struct MixedFit {
   int n = 0;  ///< people with a trial
   double n_trials = 0;
-  std::string why;  ///< there is no threshold; empty: there is
+  std::string why;  ///< reason that there is no threshold; empty: there is one
   double log_likelihood = 0;
   std::optional<MixedFigure> sensitivity;  ///< per g, of the median person
   std::optional<MixedFigure> threshold_75_g;
@@ -84,7 +84,7 @@ MixedFit fit_mixed_indecision(AnswersByPerson people);
 struct OwnThreshold {
   std::optional<double> threshold_75_g;  ///< none: not identifiable
   std::optional<Interval> interval_g;
-  std::string why;  ///< not identifiable; empty: it is
+  std::string why;  ///< reason that it is not identifiable; empty: it is
 };
 
 /// @param own the person's sensitivity in the mixed fit; null: too few people, then these answers

@@ -57,7 +57,7 @@ Proportion proportion_of(const Tallies& tallies);
 /// The same figure's interval at another confidence; none without trials.
 std::optional<Interval> interval_percent_of(const Tallies& tallies, double confidence);
 
-/// A percentage of trials, all participants together: who has more trials counts more.
+/// A percentage of the trials of all participants together, so that each trial has equal weight.
 struct Rate {
   Tally trials;
   int n_participants = 0;  ///< with a trial

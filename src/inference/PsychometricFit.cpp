@@ -199,7 +199,7 @@ bool impossible(const AnswersByLevel& answers, const FitOptions& options) {
          zero->second[positive] > 0;
 }
 
-// A flat line has one parameter; whether what the others gain is more than chance would give them.
+// Likelihood ratio test against a constant probability, which has one parameter.
 std::string no_slope(double gained, const std::vector<ParameterBounds>& bounds) {
   const auto n_free = std::ranges::count(bounds, false, &ParameterBounds::fixed);
   const boost::math::chi_squared chance(static_cast<double>(n_free - 1));

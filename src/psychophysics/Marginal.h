@@ -92,7 +92,7 @@ struct PosteriorStop {
 };
 
 /// Log of a probability, finite: an impossible response counts against a point of a grid without
-/// excluding it for ever.
+/// excluding it.
 double finite_log(double p);
 
 /// Posterior mean and 95 % interval of a threshold. Without a value, as Censored::indeterminate,

@@ -53,8 +53,8 @@ class LikelihoodTable {
   /// Entropy of the outcome at a point by level, in nats. Only without nuisance parameters.
   const float* entropy(std::size_t i) const { return outcome(i, space_.model.n_outcomes()); }
 
-  /// Log probability of a response at any level, for every point; finite. Kept for the next time
-  /// while memory for it remains: simulated people repeat the same trials. Thread-safe.
+  /// Log probability of a response at any level, for every point; finite. Cached up to a memory
+  /// limit, because simulated people repeat the same trials. Thread-safe.
   std::shared_ptr<const std::vector<double>> log_likelihood(double level,
                                                             const Response& response) const;
 

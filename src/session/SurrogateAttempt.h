@@ -1,7 +1,7 @@
-// The lowest rung of simulation: an attempt at a trial without pictures. The responder's hand plans
-// its strokes as always, but every stroke is straight and square, so that clone and cube move along
-// one line (simulator "push") and only the displayed frames of that stroke are computed. The
-// responder judges them as in a replay, and the engine folds the answer. Between strokes nothing is
+// The simplest simulation: an attempt at a trial without pictures. The responder's hand plans its
+// strokes as always, but every stroke is straight and square, so that clone and cube move along one
+// line (simulator "push") and only the displayed frames of that stroke are computed. The responder
+// judges them as in a replay, and the engine folds the answer. Between strokes nothing is
 // simulated. protocols/README.md compares the figures with those of full sessions.
 #pragma once
 

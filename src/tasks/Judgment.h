@@ -90,9 +90,9 @@ struct Judgment {
     InterleaveConfig interleaving;
     /// Instead of masses_g: all with a reference, or all of single cubes, whose levels are masses.
     std::vector<ReferenceStaircase> staircases;
-    Meanings responses;  ///< of the question's choices to them
+    Meanings responses;  ///< responses to the staircases, by choice of the question
     std::string asks;    ///< QUESTIONNAIRE.QUESTION
-    /// That question, in the session's language; none: not read yet.
+    /// The question that `asks` names, in the session's language; none: not read yet.
     std::optional<FormQuestion> question;
 
     template <typename Visit>
@@ -119,7 +119,7 @@ struct Judgment {
     bool depends_on_answers() const { return depend_on_answers(staircases); }
     bool has_reference() const { return !staircases.empty() && staircases[0].reference_g > 0; }
     int most_cubes() const;
-    /// Every choice is one of two cubes.
+    /// Whether every choice is one of two cubes.
     bool is_forced() const;
     StaircaseRules staircase_rules() const;
     /// The response of a completed trial to its staircase.

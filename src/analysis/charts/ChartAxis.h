@@ -104,7 +104,7 @@ class XAxis {
   bool are_whole() const {
     return std::ranges::all_of(places_, [](double x) { return x == std::round(x); });
   }
-  // Whole numbers that a tic each can be written at.
+  // Whole numbers, far enough apart to write a tic at each.
   bool are_apart() const { return least_gap() > 0.1 * span() && are_whole(); }
   std::string tics_at_places() const {
     return fmt::format("set xtics ({:g})\n", fmt::join(places_, ", "));
@@ -122,7 +122,7 @@ class XAxis {
     else
       add_new(texts_, text_of(one, coordinate_));
   }
-  // Six tics or so, however narrow the panel is.
+  // Distance of tics: about six on the axis, however narrow the panel is.
   double tic() const {
     const double rough = span() / 6;
     const double power = std::pow(10, std::floor(std::log10(rough)));

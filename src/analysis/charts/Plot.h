@@ -47,7 +47,7 @@ int series_dash(std::size_t index);
 /// A gnuplot string: 'text' with its quotes doubled, on one line.
 std::string gnuplot_quoted(std::string_view text);
 
-/// What every chart has.
+/// File, size and texts of a chart of any kind.
 struct ChartFrame {
   std::string svg_file;
   int width_px = 0, height_px = 0;

@@ -1,5 +1,5 @@
-// Completed comparisons, as little of each as the figures need: of a thousand participants this is
-// what stays in memory.
+// Completed comparisons, reduced to what the figures need, because those of all participants stay
+// in memory.
 #pragma once
 
 #include <cstdint>
@@ -22,12 +22,12 @@ enum class SideChosen : std::uint8_t { left, none, right };
 struct ComparedTrial {
   double level_g = 0;                ///< comparison - reference
   std::optional<double> response_s;  ///< see response_time_s
-  std::uint32_t person = 0;          ///< place in ComparisonTrials::participants
+  std::uint32_t person = 0;          ///< index into ComparisonTrials::participants
   SideChosen side = SideChosen::none;
-  bool difference : 1 = false;  ///< a cube was chosen
+  bool difference : 1 = false;  ///< whether a cube was chosen
   bool is_catch : 1 = false;
   bool reference_on_right : 1 = false;
-  std::optional<bool> correct;  ///< it was the heavier one
+  std::optional<bool> correct;  ///< whether the heavier cube was chosen; none: undefined
 
   double right_minus_left_g() const { return reference_on_right ? -level_g : level_g; }
 };
@@ -40,7 +40,7 @@ class ComparisonTrials {
   /// In the order of sessions and trials.
   const std::map<Compared, std::deque<ComparedTrial>>& by_compared() const { return trials_; }
   const std::vector<std::string>& participants() const { return participants_; }
-  /// All in the paper's technique, at a reference of the paper's.
+  /// Whether all were in the paper's technique and at one of its references.
   bool as_published(const Compared& compared) const;
   const std::string& participant(const ComparedTrial& trial) const {
     return participants_[trial.person];

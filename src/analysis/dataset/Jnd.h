@@ -67,7 +67,7 @@ inline constexpr int least_reversals = 4;
 /// censored if one of the staircases is, in the same direction.
 struct ParticipantJnd {
   std::string participant;
-  double jnd_g = 0;  ///< censored: what it lies beyond
+  double jnd_g = 0;  ///< if censored, the value that it lies above or below
   Censored censored = Censored::none;
 };
 

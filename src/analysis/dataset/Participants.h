@@ -12,13 +12,13 @@
 
 namespace heft {
 
-/// What one participant did, and whether it counts.
+/// Counts of one participant's sessions and trials, and why their data are excluded, if so.
 struct ParticipantRow {
   std::string participant;
   int n_sessions = 0, n_finished = 0;
   int n_completed = 0;  ///< trials
   int n_anticipatory = 0, n_lost = 0, n_catch = 0, n_false_alarms = 0;
-  std::string excluded_because;  ///< empty: counts
+  std::string excluded_because;  ///< empty: not excluded
 
   bool excluded() const { return !excluded_because.empty(); }
 };
@@ -38,7 +38,7 @@ class ParticipantsCollector {
   std::map<std::string, Seen> participants_;
 };
 
-/// What all sessions' protocols declare alike; none where one declares nothing or something else.
+/// The analysis plan that all sessions' protocols declare; none unless they declare the same.
 class PlanCollector {
  public:
   void add(const SessionData& data);

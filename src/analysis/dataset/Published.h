@@ -49,7 +49,7 @@ class Comparable {
   bool any_ = false, same_ = true;
 };
 
-/// A mean of the paper's.
+/// A mean that the paper reports.
 struct Figure {
   std::string_view what;  ///< "C2 correct", "JND at 200 g"
   std::string_view source;

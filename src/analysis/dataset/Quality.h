@@ -22,7 +22,7 @@ inline constexpr double fastest_answer_s = 0.3;
 struct DataQualityRow {
   std::string what;
   int n = 0;
-  std::optional<int> of;  ///< how many could have been
+  std::optional<int> of;  ///< number of cases among which n are counted
   std::string meaning;
 };
 

@@ -17,7 +17,7 @@
 
 namespace heft {
 
-/// What is estimated: declared once, in the file that does it.
+/// A quantity that is estimated, declared in the file that estimates it.
 struct Measure {
   std::string_view name;     ///< snake_case, unique
   std::string_view unit;     ///< "g", "%", "s"; empty: a number
@@ -40,14 +40,14 @@ struct StudyEstimate {
   std::optional<double> reference_g{};
   std::string participant{};  ///< empty: over all participants
   std::vector<Coordinate> by{};
-  std::optional<double> value{};  ///< none: `why` says why
+  std::optional<double> value{};  ///< none: `why` has the reason
   std::optional<double> sd{};     ///< between participants, over n-1
   std::optional<double> low{}, high{};
   int n = 0;                     ///< participants
-  int n_trials = 0, n_hits = 0;  ///< of a share: of how many trials, in how many of them
+  int n_trials = 0, n_hits = 0;  ///< of a share: its denominator and numerator
   std::string_view method{};     ///< of the interval or the mean
   Censored censored = Censored::none;
-  std::string why{};  ///< there is no value, or it leaves participants out
+  std::string why{};  ///< reason that there is no value, or that it leaves participants out
   const published::Figure* published = nullptr;  ///< null: the paper has none to compare with
   bool as_published = false;                     ///< technique, masses and task are the paper's
 
@@ -68,8 +68,8 @@ struct StudyEstimate {
   std::string text_at(std::string_view name) const;
 };
 
-/// All of a study. Growing a deque moves nothing, so that a thousand participants take no more
-/// memory for it than their estimates.
+/// All estimates of a study. A deque, because a growing vector would for a moment need the memory
+/// of all of them twice.
 using Estimates = std::deque<StudyEstimate>;
 
 /// A coordinate's name and its text.
@@ -88,7 +88,8 @@ std::string_view beyond_sign(Censored censored);
 /// A coordinate that is a number.
 Coordinate at(std::string_view name, double value);
 
-/// Student's t from the paper's SD, or exact over its people; none where the paper gives neither.
+/// The paper's interval: by Student's t from its SD, or exact from its number of people; none where
+/// the paper gives neither.
 std::optional<Interval> interval_of(const published::Figure& figure);
 
 /// The median, with quartiles as low and high.

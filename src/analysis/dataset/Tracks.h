@@ -16,7 +16,7 @@ namespace heft {
 struct TrackPoint {
   double level_g = 0;   ///< as presented
   bool wrong = false;   ///< the lighter cube was chosen
-  bool chosen = false;  ///< a cube was, or the answer is positive; otherwise neither
+  bool chosen = false;  ///< whether a cube was chosen, or the answer is positive
   bool is_reversal = false;
 };
 
@@ -24,7 +24,7 @@ struct Track {
   std::string staircase;
   Compared compared;
   std::vector<TrackPoint> points;  ///< the staircase's completed trials in order
-  std::optional<double> jnd_g;     ///< where `censored`, what it lies beyond
+  std::optional<double> jnd_g;     ///< if `censored`, the value that it lies above or below
   Censored censored = Censored::none;
   /// For judgments: the question's key, and the answers that are positive or choose a cube.
   std::string question{};

@@ -20,7 +20,7 @@ enum class ChartShape {
   matrix,   ///< counts by two coordinates
 };
 
-/// What is drawn alike.
+/// Estimates that are drawn in the same way.
 struct ChartSeries {
   const Measure* measure = nullptr;
   std::string title{};  ///< in the key; empty: the measure's heading, or what splits the series

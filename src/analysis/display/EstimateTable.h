@@ -11,7 +11,7 @@
 
 namespace heft {
 
-/// What of an estimate a cell shows.
+/// The field of an estimate that a cell shows.
 enum class Field {
   value,
   sd,

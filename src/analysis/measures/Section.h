@@ -20,11 +20,11 @@ class Section {
   Section& operator=(const Section&) = delete;
   virtual ~Section() = default;
 
-  /// Whether it is about those too who are left out of the figures.
+  /// Whether it includes participants who are excluded from the figures.
   virtual bool of_everyone() const { return false; }
   /// A session of a participant who counts. Sessions come in order, and one is in memory at a time.
   virtual void add(const SessionData& /*data*/) {}
-  /// Adds the estimates over participants to the summary. What they alone were made of may go.
+  /// Adds the estimates over participants to the summary. May release data that only these need.
   virtual void put(Summary& summary) = 0;
   /// Estimates of each participant, computed when they are printed, because they would take most of
   /// the memory of a large study. @param summary that they belong to
@@ -35,7 +35,7 @@ class Section {
   virtual std::vector<ChartSpec> charts() const { return {}; }
 };
 
-/// New ones.
+/// A new section of each kind.
 std::vector<std::shared_ptr<Section>> all_sections();
 
 }  // namespace heft

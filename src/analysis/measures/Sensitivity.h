@@ -27,16 +27,16 @@ struct ReferenceSensitivity {
 /// By reference, lightest first, and condition; participants' sessions together.
 std::vector<ReferenceSensitivity> sensitivities_of(const ComparisonTrials& trials);
 
-/// Threshold, sensitivity, criterion and lapse rate of each, and how they compare.
+/// Adds threshold, sensitivity, criterion and lapse rate of each row, and their comparisons.
 void put_sensitivities(Estimates& all, std::span<const ReferenceSensitivity> rows);
 
-// How identifiable thresholds compare; in ThresholdContrasts.cpp.
+// Comparisons of identifiable thresholds; in ThresholdContrasts.cpp.
 
 void put_threshold_contrasts(Estimates& all, std::span<const ReferenceSensitivity> rows);
 EstimateTable threshold_ratio_table();
 EstimateTable threshold_exponent_table();
 
-// Whether the model predicts what was seen, by reference and condition; in ModelFit.cpp.
+// Whether the model predicts the observed answers, by reference and condition; in ModelFit.cpp.
 
 void put_model_fit(Estimates& all, std::span<const ReferenceSensitivity> rows,
                    const ComparisonTrials& trials, StaircaseRuns& runs);
@@ -55,7 +55,7 @@ std::string fit_sentence(const Estimates& all);
 std::optional<StudyEstimate> weber_fraction_of(const StudyEstimate& threshold,
                                                const Measure& fraction);
 
-/// The columns of it and, outside of text, its interval.
+/// Adds columns for a Weber fraction and, in files, its interval.
 void add_weber_fraction(std::vector<EstimateColumn>& columns, const Measure& fraction);
 
 /// Each participant's slope of log threshold on log reference, by condition: least squares over the
@@ -66,7 +66,7 @@ Estimates own_exponents(const Estimates& thresholds, const Measure& threshold,
 
 /// The mean over participants of their exponents.
 EstimateTable exponent_table(std::string name, std::string title, const Measure& exponent);
-/// Each one's. CSV only.
+/// Each participant's exponent; in CSV files only.
 EstimateTable own_exponent_table(std::string name, std::string title, const Measure& exponent);
 
 }  // namespace heft

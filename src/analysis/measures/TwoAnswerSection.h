@@ -1,5 +1,5 @@
-// Comparisons with one of two answers: how often which was given, by the difference in mass; each
-// participant's threshold; and how well the fitted curves describe the answers. TwoAnswerTasks.cpp
+// Comparisons with one of two answers: the share of each answer by the difference in mass, each
+// participant's threshold, and how well the fitted curves describe the answers. TwoAnswerTasks.cpp
 // has the tasks.
 #pragma once
 
@@ -19,19 +19,19 @@ namespace heft {
 /// A participant's answer to a comparison.
 struct TwoWayAnswer {
   double level_g = 0;
-  bool counted = false;  ///< it is the answer whose share is shown
+  bool counted = false;  ///< whether it is the answer whose share is shown
 };
 
 /// Fit of one participant's answers.
 struct TwoAnswerFit {
   FittedParameter threshold;
   std::optional<FittedParameter> second;  ///< shown beside the threshold
-  std::string why;                        ///< there is no threshold; empty: there is
+  std::string why;                        ///< reason for no threshold; empty: there is one
 };
 
-/// What sets one of these tasks apart.
+/// How one of these tasks is fitted, and its measures and texts.
 struct TwoAnswerTask {
-  /// None: it is no answer of this task.
+  /// None unless it is an answer of this task.
   std::optional<TwoWayAnswer> (*answer_of)(const Attempt& attempt);
   TwoAnswerFit (*fit)(const AnswersByLevel& answers);
   GoodnessOfFit (*check)(const AnswersByLevel& answers);
@@ -64,7 +64,7 @@ class TwoAnswerSection final : public Section {
   std::vector<ChartSpec> charts() const override;
 
  private:
-  /// The second kind of answers is counted.
+  /// At index 1 of each level: the number of counted answers.
   using AnswersByPerson = std::map<std::string, AnswersByLevel>;
   using Person = std::pair<Compared, std::string>;
 

@@ -27,12 +27,12 @@ enum class Source {
   adjusted_likelihood
 };
 
-/// Collects what was cited.
+/// Collects the sources that the text cites.
 class Citations {
  public:
-  /// "Levitt, 1971"; in the list from now on.
+  /// Adds the source to the list. @return "Levitt, 1971"
   std::string cite(Source source);
-  /// Those cited, in full, by author.
+  /// The cited sources in full, ordered by author.
   std::vector<std::string> references() const;
 
  private:

@@ -15,7 +15,7 @@ namespace heft {
 /// The results of all sections, a sentence each.
 std::vector<std::string> findings_of(const Summary& summary);
 
-/// The findings, and what limits them.
+/// The findings, and their limitations.
 std::vector<std::string> leading_sentences(const Summary& summary);
 
 /// Names the paper's hypotheses that were tested without a conclusion; empty: there are none.

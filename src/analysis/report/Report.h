@@ -51,8 +51,8 @@ std::vector<std::string> attention_sentences(const Summary& summary);
 /// UTF-8, indented by two spaces, ending in a newline. Percentages are 0...100.
 std::string as_json(const Summary& summary);
 
-/// A table a group, and why there is no threshold where there is none; of a mixed fit a second
-/// table of each person's threshold.
+/// A table for each group, and the reason where there is no threshold; of a mixed fit also a table
+/// of each person's threshold.
 std::string fits_as_text(std::span<const NamedFit> fits);
 
 /// A list of objects: group, parameters (value, se, low, high, fixed; null for what does not

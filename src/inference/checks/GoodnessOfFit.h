@@ -14,19 +14,19 @@
 
 namespace heft {
 
-/// Fewer trials at a level say too little about the share there.
+/// Minimum number of trials at each level for a check.
 inline constexpr double least_trials_at_level = 5;
-/// How many times as many trials one level may have as another: constant stimuli are shown equally
-/// often or nearly, an adaptive procedure shows most where it ends.
+/// Maximum ratio of the numbers of trials at two levels: constant stimuli are shown about equally
+/// often, an adaptive procedure shows most where it ends.
 inline constexpr double most_unequal_levels = 4;
 
 struct GoodnessOfFit {
-  std::optional<double> deviance{};  ///< none: `why` says why
+  std::optional<double> deviance{};  ///< none: `why` has the reason
   int degrees_of_freedom = 0;        ///< free shares of the saturated model less free parameters
-  /// The share of simulated answers whose deviance is as large, counting those that were seen.
+  /// The share of data sets whose deviance is at least as large, of the simulated and the real one.
   std::optional<double> p{};
   int n_simulated = 0;
-  std::string why{};  ///< it can't be judged
+  std::string why{};  ///< reason that the fit cannot be judged
 
   bool fits() const { return !p || *p >= 0.05; }
 };

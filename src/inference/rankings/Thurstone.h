@@ -4,11 +4,11 @@
 // distance d is ranked above the other in a share Phi(d) of trials.
 //
 // Maximum likelihood of whole orders (Daniels 1950): the pairs of one order are not
-// independent, and are not counted as if they were. Nor are the trials of a person: intervals hold
-// the distances at which the profile likelihood has fallen by t^2/2 (n - 1 degrees of freedom for n
-// people) times the variance over people by the variance of independent trials (vertical scaling:
-// Chandler & Bate 2007). The former is the jackknife's, to first order; their ratio is at least
-// what 97.5 % of studies with independent trials exceed.
+// independent, and are not counted as if they were. The trials of one person are not independent
+// either: intervals end where the profile likelihood has fallen by t^2/2 (n - 1 degrees of freedom
+// for n people) times the ratio of the variance over people to the variance of independent trials
+// (vertical scaling: Chandler & Bate 2007). The former is the jackknife's, to first order. The
+// ratio is limited to at least the value that 97.5 % of studies with independent trials exceed.
 //
 // Values are those of all people together. Where people differ in sensitivity, they are closer
 // together than those of the median person.
@@ -34,8 +34,8 @@ struct PerceivedDistance {
   std::optional<double> value{};  ///< none: not identifiable
   std::optional<Interval> interval{};
   int n = 0;          ///< people who ranked both, not always in one trial
-  std::string why{};  ///< there is no value
-  /// How it changes without each person, to first order; of one person none.
+  std::string why{};  ///< reason that there is no value
+  /// Change of the value without each person, to first order; empty for a single person.
   std::map<std::string, double> influence{};
 };
 

@@ -20,7 +20,7 @@ struct EnumNames<ExportFormat> {
   static constexpr std::array<std::string_view, 3> names{"csv", "psych-ds", "bids"};
 };
 
-/// A written file and its number of rows without the header; none: it is no table.
+/// A written file and, if it is a table, its number of rows without the header.
 struct ExportedFile {
   std::string name;
   std::optional<std::int64_t> n_rows;

@@ -1,5 +1,5 @@
-// Null models whose answers follow from the plan of a trial, whatever is displayed. They state what
-// answers would be without perception by the technique, and are not models of people.
+// Null models whose answers follow from the plan of a trial, whatever is displayed. They show which
+// answers are possible without perceiving anything, and are not models of people.
 #pragma once
 
 #include <span>

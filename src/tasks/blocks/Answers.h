@@ -1,4 +1,4 @@
-// What a trial may be answered by: what the analysis of a log needs to know of a block.
+// The possible answers to comparisons and judgments, as far as the analysis of a log needs them.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace heft {
 
-/// What a comparison may be answered by.
+/// The possible answers to a comparison.
 ///
 /// - heavier_or_none: the heavier cube, or no difference (the paper).
 /// - heavier: a cube (forced choice). The response to every procedure is "the comparison was
@@ -28,8 +28,8 @@ struct EnumNames<ComparisonAnswers> {
                                                          "same_different"};
 };
 
-/// What a choice in a judgment responds to a procedure: yes or no, or the cube that is heavier;
-/// none: neither.
+/// Response to a procedure that a choice in a judgment stands for: positive or negative, or the
+/// heavier cube; none: neither cube.
 enum class Meaning { positive, negative, left, right, none };
 template <>
 struct EnumNames<Meaning> {
@@ -43,10 +43,10 @@ using Meanings = std::vector<std::pair<std::string, Meaning>>;
 /// @param choice null: no answer  @return none: it has no meaning
 std::optional<Meaning> meaning_of(const Meanings& responses, const AnswerChoice* choice);
 
-/// What a judgment asks.
+/// The question of a judgment, and the responses that its choices stand for.
 struct JudgmentOffer {
   FormQuestion question;
-  Meanings responses = {};  ///< empty: to no procedure
+  Meanings responses = {};  ///< empty: there is no procedure
 };
 
 }  // namespace heft

@@ -75,7 +75,7 @@ class TaskBlock {
     return std::make_unique<PracticedRun>(*practice, of_task_->practice_run(of_practice),
                                           of_task_->run(seed), of_task_->is_correct());
   }
-  /// Whether it is defined for its trials if an answer is correct.
+  /// Whether answers to its trials are correct or incorrect.
   bool has_correct_answers() const { return of_task_->is_correct() != nullptr; }
   /// A new attempt at a trial.
   std::unique_ptr<TaskTrial> trial(const TrialPlan& plan, std::uint64_t seed) const {

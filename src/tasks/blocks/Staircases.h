@@ -24,16 +24,16 @@ struct ReferenceStaircase {
   std::string condition{};  ///< technique; empty: the block's
 };
 
-/// What the answers of a block demand of its procedures.
+/// Rules for the procedures of a block that follow from its answers.
 struct StaircaseRules {
   enum class Reference { required, optional, unknown };  ///< unknown: its mass is a mistake
   Reference reference = Reference::required;
   std::optional<double> object_g = {};  ///< of the real object that is the reference of all
   bool either_sign = false;             ///< the comparison may be lighter
-  std::string_view no_cube = {};  ///< the key by which answers name no cube; empty: they name one
+  std::string_view no_cube = {};  ///< the key that makes answers name no cube; empty: they name one
 };
 
-/// The procedures of a block, whose checks depend on its answers.
+/// A block for the functions that read and check its procedures, which depends on its answers.
 template <typename Block>
 struct StaircasesOf {
   Block& block;
@@ -51,7 +51,7 @@ bool depend_on_answers(std::span<const ReferenceStaircase> staircases);
 
 /// The order of the procedures, for reports.
 std::string in_words(const InterleaveConfig& interleaving);
-/// Adds what each of them is.
+/// Adds each procedure's description, and its start and steps, if it has steps.
 void add_staircases(Choices& choices, std::span<const ReferenceStaircase> staircases);
 
 /// The procedures of a block while it runs.

@@ -31,7 +31,7 @@ class ToneLearner {
   /// @param bias_px how much larger black tags look than they are, per edge, on average
   /// @return whether edges move by so much that repeating the measurement is worth the time
   bool learn(const PictureTone& seen, double bias_px, double bias_sd_px);
-  /// Keeps what was learned from this picture.
+  /// Ends the picture: what was learned from it stays.
   void next_picture();
 
  private:

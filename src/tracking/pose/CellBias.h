@@ -41,7 +41,7 @@ class TagSizeLearner {
  public:
   /// Whether another picture is wanted.
   bool is_open() const { return n_tried_ < most_tried && excesses_.size() < enough; }
-  /// A picture is used now, even if it shows nothing.
+  /// Counts a picture as tried, even if it shows nothing.
   void try_picture() { ++n_tried_; }
 
   /// @param seen against tags with excess()  @return whether excess() has changed
