@@ -67,7 +67,7 @@ struct EveryoneCollector {
   }
 };
 
-// The figures, of those who count.
+// The figures, of participants who are not excluded.
 struct IncludedCollector {
   std::set<std::string> participants;
   std::shared_ptr<SharedCollectors> shared = std::make_shared<SharedCollectors>();

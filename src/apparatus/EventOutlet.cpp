@@ -75,7 +75,7 @@ class Datagrams final : public EventOutlet::Channel {
     if (!socket_.is_open()) miss(spec, std::strerror(errno));
   }
 
-  // A refused datagram is reported by the next send, which is no reason not to send this one.
+  // The first try may only report that an earlier datagram was refused.
   bool hand_over(const std::string& line) override {
     return sends(line) || (errno == ECONNREFUSED && sends(line));
   }

@@ -12,7 +12,7 @@
 namespace heft {
 
 namespace {
-// log of normal_cdf, also where that is 0 by the digits.
+// log of normal_cdf, also where normal_cdf underflows to 0.
 double log_normal_cdf(double z) {
   if (z > -30) return std::log(normal_cdf(z));
   return -z * z / 2 - std::log(-z) - 0.9189385332046727;  // log sqrt(2 pi); Mills' ratio

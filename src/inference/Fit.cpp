@@ -66,7 +66,7 @@ double log_likelihood_of(const std::array<double, 3>& n, std::span<const double>
   std::array<double, 3> share{};
   std::array<bool, 3> at_least{};
   for (std::size_t k = 0; k < least.size(); ++k) at_least[k] = k < first || k > last;
-  for (bool changed = true; changed;) {  // what would get less than its least gets that
+  for (bool changed = true; changed;) {  // raises shares below their smallest value to it
     double mass = 1, n_left = 0;
     for (std::size_t k = 0; k < least.size(); ++k) at_least[k] ? mass -= least[k] : n_left += n[k];
     changed = false;

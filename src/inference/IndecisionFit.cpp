@@ -142,8 +142,8 @@ std::vector<double> cuts_between(const AnswersByLevel& answers, const LevelAxis&
   return few;
 }
 
-// Nearly steps, with the criteria between levels: searches from afar may end in flat parts or at
-// other local maxima.
+// Starts near steps, with the criteria between levels: searches from afar may end in flat parts or
+// at other local maxima.
 std::vector<Parameters> steep_starts(const AnswersByLevel& answers, const LevelAxis& axis) {
   constexpr double steep = 40;
   std::vector<Parameters> all;
@@ -238,7 +238,7 @@ LikelihoodFit maximize(const AnswersByLevel& answers, const LevelAxis& axis,
   return found;
 }
 
-// Upwards or downwards.
+// Of steps upwards or downwards, whichever are likelier.
 double log_likelihood_of_steps(const AnswersByLevel& answers, const LikelihoodFit& fit) {
   const double astray = fit.parameters[lapse].value / 3;
   const std::array least{astray, astray, astray};

@@ -126,8 +126,8 @@ Maximum Likelihood::climb_by_score(Parameters from, Eigen::Index held, Accuracy 
   return here;
 }
 
-// Sequential quadratic programming (Kraft 1994). It may stop for lack of digits, even at no number:
-// what counts is the best that it tried.
+// Sequential quadratic programming (Kraft 1994). It may stop early because of rounding, even at
+// NaN; the result is the best point that it tried.
 Maximum Likelihood::climb_by_nlopt(const Maximum& from, Eigen::Index held) {
   at_ = from.at;
   best_ = from;

@@ -144,8 +144,8 @@ void widen(LikelihoodParameter& parameter, const LikelihoodParameter& by) {
   parameter.exists = parameter.exists && by.exists;
 }
 
-// What is likely enough with a parameter held at its bound is so where it is free. Among several
-// hills the search may miss that, as what leaves the bound doesn't always find back.
+// Widens intervals by those with a parameter held at its bound: values that are likely enough there
+// are so with the parameter free, too. With several local maxima the search may miss them.
 // @return as fit_parameters()
 bool widen_by_held(const LogLikelihood& log_likelihood, const std::vector<ParameterBounds>& bounds,
                    const Starts& starts, Maximum& best,

@@ -60,7 +60,7 @@ Profile profile_of(const AnswersByLevel& by_level, double largest_g, Parameters 
   Profile profile;
   profile.fill(-infinity);
   double most = -infinity;
-  // @return whether it is not far less
+  // @return whether the likelihood is not negligible
   const auto put = [&](PersonIntegral& person, std::size_t place) {
     const double s = std::abs(sensitivity_at(static_cast<double>(place)));
     population[mean_log_sensitivity] = s > 0 ? std::log(s) : none;

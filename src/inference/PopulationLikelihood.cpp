@@ -14,8 +14,8 @@ namespace {
 // Fewer take less time than a thread does to start.
 constexpr std::size_t people_at_once = 32;
 
-// What the quadrature leaves open in the log likelihood; and where some people chose and others
-// never did.
+// Error of the log likelihood by the quadrature, and the larger one where some people chose a cube
+// and others never did.
 constexpr double of_quadrature = 1e-3, of_choices_of_few = 0.5;
 
 Parameters within(Parameters at, const std::vector<ParameterBounds>& bounds) {

@@ -35,7 +35,7 @@ OutcomeShares ResponseModel::attentive(const ParameterValues& parameters, double
     return {shares.reference, shares.none, shares.comparison};
   }
   const PsychometricFunction curve = psychometric();
-  if (curve.takes_logarithm()) level = std::max(level, 0.0);  // presented against the plan
+  if (curve.takes_logarithm()) level = std::max(level, 0.0);  // unplanned levels may be negative
   const double u =
       curve.steepness(parameters[1]) * (curve.place(level) - curve.place(parameters[0]));
   const StandardCurve at = standard_curve(curve.shape, u);

@@ -181,7 +181,8 @@ class Drawing {
                                   series_color(look)));
   }
 
-  // Points beside their mean, arrows where an estimate is censored; of lines a thin one each.
+  // Adds participants: points beside their mean, arrows where an estimate is censored; in charts of
+  // lines a thin line each.
   void add_participants(PlotPanel& panel, const XAxis& axis, const Drawn& drawn,
                         double aside) const {
     if (spec_.shape == ChartShape::lines || spec_.has_bands()) {

@@ -13,7 +13,7 @@ namespace heft {
 namespace {
 constexpr std::size_t most_panels = 150;
 
-// "200 g, C2", "heavy (positive: yes), C2"; the question where its judgment is called otherwise.
+// "200 g, C2", "heavy (positive: yes), C2"; with the question's key if the block has another name.
 std::string name_of_compared(const Track& track) {
   const auto& [reference_g, condition, method, block] = track.compared;
   if (!track.is_judgment()) return fmt::format("{:g} g, {}", reference_g, condition);
@@ -23,7 +23,7 @@ std::string name_of_compared(const Track& track) {
       reference_g > 0 ? fmt::format(" at {:g} g", reference_g) : "", condition);
 }
 
-// What the tracks of a chart are of: its words depend on it.
+// The kinds of tracks in a chart, on which its texts depend.
 struct TrackKinds {
   bool comparisons = false, judgments = false;  // JNDs; thresholds
   bool of_cube = false, of_positive = false;    // answers
@@ -166,7 +166,7 @@ Chart all_at(const Summary& summary, const Track& of, const std::string& name) {
   return chart;
 }
 
-// Panels with different levels have a label each.
+// Panels have separate labels if some levels are masses and others differences.
 PlotFrame frame_of(const TrackKinds& kinds, std::size_t n_panels) {
   PlotFrame frame;
   frame.panel_width_px = n_panels > 1 ? 300 : 600;

@@ -155,7 +155,7 @@ struct Declared {
   std::optional<AnalysisPlan> plan;
   ExclusionRules exclusion;
   std::map<std::string, published::Condition> published_conditions;
-  std::map<std::string, ComparisonAnswers> answers;  // by block, where not three
+  std::map<std::string, ComparisonAnswers> answers;  // by block, if not heavier_or_none
   std::map<std::string, Judgment::Offer> judgments;
 };
 

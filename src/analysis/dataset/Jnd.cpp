@@ -19,8 +19,8 @@
 namespace heft {
 
 namespace {
-// What each of a session's staircases that estimate a JND compared with, from its trials. One that
-// did not finish has not logged its method: most likely it is the paper's.
+// Reference, technique and method of each of a session's staircases that estimate a JND, from its
+// trials. One that did not finish has not logged its method: most likely it is the paper's.
 std::map<std::string, Compared> compared_by(const SessionData& data, std::string_view task) {
   std::map<std::string, Compared> staircases;
   const bool is_judgment = task == Judgment::task.name;
@@ -39,7 +39,7 @@ std::map<std::string, Compared> compared_by(const SessionData& data, std::string
   return staircases;
 }
 
-// A damaged log may hold an infinite JND: that is none.
+// None for an infinite JND, which a damaged log may contain.
 std::optional<double> finite(std::optional<double> value) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
@@ -153,8 +153,9 @@ JndFigure mean_of(std::span<const JndFigure> parts, bool leave_out_unknown = fal
           mean_of(parts, &JndFigure::as_logged, leave_out_unknown)};
 }
 
-// Staircases of one session first, then sessions: a participant counts once. Staircases that began
-// and have no result are unknown. Sessions without a figure don't count where another one has one.
+// Means over the staircases of each session, then over a participant's sessions, so that a
+// participant counts once. Staircases that began without a result are unknown. Sessions without a
+// figure are ignored where another one has one.
 Jnds overall_of(const Results& results, const Began& began) {
   Jnds jnds;
   for (const auto& [participant, sessions] : began) {

@@ -9,7 +9,7 @@
 namespace heft {
 
 namespace {
-// An attempt of a staircase as a track begins with it, and its point.
+// The track of an attempt's staircase, still without points, and the attempt's point.
 struct Tracked {
   Track track;
   TrackPoint point;
@@ -87,7 +87,7 @@ std::vector<Track> tracks_of(const SessionData& data) {
 void TracksCollector::add(const SessionData& data) {
   std::vector<Track> tracks = tracks_of(data);
   if (tracks.empty()) return;
-  for (Track& track : tracks) track.points.shrink_to_fit();  // of a thousand, what is spare is much
+  for (Track& track : tracks) track.points.shrink_to_fit();  // many tracks stay in memory
   all_.push_back({data.session.session_id, data.session.header.participant, data.simulated(),
                   data.finished(), std::move(tracks)});
 }

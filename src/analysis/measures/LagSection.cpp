@@ -117,11 +117,11 @@ class LagSection final : public Section {
  private:
   using Group = std::pair<std::string, std::string>;  // condition, what
   using ByMass = std::map<double, std::deque<double>>;
-  // Less turns with a spring that locks the orientation.
+  // A spring that locks the orientation turns by less.
   static constexpr double visible_deg = 0.1;
   std::map<Group, ByMass> values_mm_;
   std::map<std::string, ByMass> yaw_deg_;  // by condition
-  bool turns_ = false;                     // by more than that somewhere
+  bool turns_ = false;                     // by more than visible_deg in some trial
 };
 }  // namespace
 

@@ -74,7 +74,7 @@ void put_fit(Estimates& all, const ReferenceSensitivity& row) {
 
 using Key = std::pair<Compared, std::string>;
 
-// Null: too few people to draw on.
+// Null: too few people.
 const OwnSensitivity* own_of(const Key& key, const std::vector<ReferenceSensitivity>& all) {
   const auto reference = std::ranges::find(all, key.first, &ReferenceSensitivity::compared);
   return reference == all.end() ? nullptr : reference->fit.own(key.second);

@@ -34,7 +34,7 @@ constexpr Measure jnd_rising{
     "share of participants whose JND rises with the reference, of those with "
     "an exact JND at each of the paper's references"};
 
-// What is counted of staircases.
+// A count of staircases, and its columns.
 struct Counted {
   Measure measure;
   std::string_view column, heading, json;
@@ -112,7 +112,7 @@ StudyEstimate estimate_at(const Measure& measure, const ReferenceJnd& row) {
   return estimate;
 }
 
-// The mean of several, and who is censored.
+// Adds the mean of JNDs, and the numbers that are censored above and below.
 void put_jnds(Estimates& all, StudyEstimate estimate, const Jnds& jnds) {
   set_mean(estimate, jnds);
   all.push_back(estimate);
@@ -236,7 +236,7 @@ EstimateTable jnd_table() {
   return table;
 }
 
-// What JSON has of a reference beside its counts.
+// The fields of a reference in JSON, except its counts.
 EstimateTable jnd_json() {
   std::vector<EstimateColumn> columns =
       columns_of({key_column("reference_g", "reference g"), key_column("condition", "condition"),

@@ -34,7 +34,8 @@ struct PersonTracking {
     add_frames(more.frames);
     pictures += data.pictures;
   }
-  // Of the time from all cubes shown to the answer, without pauses; none without such a time.
+  // Percentage of the time from all cubes shown to the answer, without pauses; none without such a
+  // time.
   std::optional<double> in_view_percent() const {
     if (!(counts.answering_s > 0)) return std::nullopt;
     return 100 * (1 - counts.lost_s / counts.answering_s);

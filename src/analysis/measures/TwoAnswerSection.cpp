@@ -11,7 +11,7 @@ namespace heft {
 
 namespace {
 
-// Empty: the difference was chosen beforehand, as that of a catch trial is.
+// Reason that the differences are not constant stimuli; empty: they are, as those of catch trials.
 std::string why_not_constant(const SessionData& data, const TrialPlan& plan) {
   if (plan.staircase.empty()) return "";
   const auto found = data.staircases.find(plan.staircase);
@@ -30,7 +30,7 @@ StudyEstimate own_estimate(const Compared& compared, const std::string& particip
   return own;
 }
 
-// Each participant's estimates together that are of one reference, condition and measure.
+// Participants' estimates, grouped by reference, condition and measure.
 std::vector<std::vector<const StudyEstimate*>> together(const Estimates& own) {
   std::map<std::tuple<std::optional<double>, std::string, std::string_view>,
            std::vector<const StudyEstimate*>>
@@ -88,7 +88,6 @@ std::vector<std::string> TwoAnswerSection::findings(const Summary& summary) cons
   return threshold_findings(summary, task_.finding, task_.threshold.name);
 }
 
-// Takes a while.
 GoodnessOfFit TwoAnswerSection::goodness(const Person& person,
                                          const AnswersByLevel& answers) const {
   const auto why = not_constant_.find(person);

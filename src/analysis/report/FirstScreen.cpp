@@ -220,7 +220,7 @@ std::string first_screen(const Summary& summary, const FirstScreenOptions& optio
   for (const NextStep& step : options.next)
     for (std::string& line : step_lines(step, label_width)) steps.push_back(std::move(line));
 
-  // Attention has what the results leave, but a few lines at least.
+  // Attention gets the lines that the results leave, but at least a few.
   const std::vector<std::string> findings = findings_of(summary);
   const std::size_t headings = 2 * (std::size_t{!findings.empty()} +
                                     std::size_t{!attention.empty()} + std::size_t{!steps.empty()});

@@ -116,7 +116,7 @@ struct Judgment {
   std::string why;
 };
 
-constexpr double usual_margin_percent = 10;  // beside chance: what counts as no better
+constexpr double usual_margin_percent = 10;  // smaller differences from chance count as none
 
 // "Blind" by two one-sided tests (Schuirmann 1987): the 90 % interval within chance +- 10 points.
 Judgment judge_blind(const StudyEstimate& answered_correct, double chance, double margin_percent) {
@@ -255,7 +255,7 @@ Hypothesis judged(std::size_t index, Judgment judgment, std::vector<std::string>
           std::move(condition)};
 }
 
-// What was sorted in one of the paper's conditions, whatever it is called here.
+// Sorting in one of the paper's conditions, whatever its name in this protocol.
 struct PaperSorting {
   PaperSorting(const Summary& summary, const published::Sorting& paper) : summary_(summary) {
     for (const StudyEstimate* one : estimates_of(summary.estimates, "sorting_answers"))

@@ -125,7 +125,7 @@ class RowPath {
   const std::vector<Cell>& row_;
 };
 
-// What has no rows is there all the same: an empty list, an object of nulls.
+// Adds a table without rows as an empty list or an object of nulls.
 void put_empty(ordered_json& root, const Table& table) {
   ordered_json* at = &root;
   for (const std::string& part : parts_of(table.json)) {

@@ -112,7 +112,7 @@ std::string other_kind(const Procedure& procedure, Citations& citations) {
   return settings;
 }
 
-// What set the mass in a judgment's trials.
+// The procedure that set the mass in a judgment's trials.
 std::string by_procedure(const ReferenceStaircase& one, Citations& citations) {
   std::string text = one.reference_g > 0 ? fmt::format("at {:g} g ", one.reference_g) : "";
   if (const UpDown* up_down = one.staircase.get_if<UpDown>())
