@@ -1,7 +1,8 @@
-// What sanitizers find in libraries that we call and do not build; part of sanitizer builds alone.
+// Suppresses findings of sanitizers in libraries that are not built here; only part of sanitizer
+// builds.
 
-// A driver that is unloaded takes the pointers to what it still holds with it, and that looks like
-// a leak of nobody's. So none is unloaded.
+// Unloading a driver removes its pointers to memory that it has not freed, which then counts as a
+// leak. So none is unloaded.
 extern "C" int dlclose(void*);
 extern "C" int dlclose(void*) {
   return 0;
@@ -13,9 +14,9 @@ extern "C" const char* __lsan_default_suppressions() {
   return "leak:libfontconfig\nleak:libdbus\n";
 }
 
-// OpenCV loads GDAL for its picture formats; GDAL takes two locks of its own in both orders when it
-// starts. It films with FFmpeg, and Pango looks for fonts in a thread of its own: code that is not
-// instrumented, whose locks are not visible. Mesa draws in its own threads.
+// GDAL, which OpenCV loads for its picture formats, takes two locks in both orders when it starts.
+// OpenCV decodes with FFmpeg, and Pango looks for fonts in its own thread: their code is not
+// instrumented, so that their locks are not visible. Mesa draws in its own threads.
 extern "C" const char* __tsan_default_suppressions();
 extern "C" const char* __tsan_default_suppressions() {
   return "deadlock:libgdal\nrace:libavutil\nrace:libavcodec\nrace:libfontconfig\nrace:libglib\n"

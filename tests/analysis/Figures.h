@@ -13,7 +13,7 @@ inline Summary summarized(const std::vector<SessionData>& sessions) {
   return summarize({"x.db", sessions}, "");
 }
 
-/// Of participants, too. One without a measure: there is none.
+/// Searches participants' estimates, too. @return an estimate without a measure if there is none
 inline StudyEstimate figure(const Summary& summary, std::string_view measure,
                             std::initializer_list<Place> places = {}) {
   const Estimates all = all_estimates(summary);

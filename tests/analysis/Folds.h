@@ -1,4 +1,4 @@
-// Made-up sessions through the analysis' folds, as summarize() takes those of a log.
+// Runs simulated sessions through the analysis, as summarize() does with those of a log.
 #pragma once
 
 #include <deque>

@@ -1,4 +1,4 @@
-// People of whom everything is known, in comparisons as the protocols run them.
+// Simulated people with known parameters, in comparisons as the protocols run them.
 #pragma once
 
 #include <algorithm>

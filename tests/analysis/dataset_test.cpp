@@ -33,7 +33,7 @@ class LogFile : public testing::Test {
 
   std::string path() const { return (folder_ / "log.db").string(); }
 
-  /// A finished session with one sorting trial, light and intermediate taken for each other.
+  /// A finished session with one sorting trial, in which light and intermediate are exchanged.
   void write_session(const std::string& participant, Purpose purpose,
                      const std::string& protocol_text = "") {
     SessionHeader header = session(0, participant, purpose).session.header;
@@ -144,7 +144,7 @@ TEST_F(LogFile, PeopleNamedAlikeInTwoLogsAreTwo) {
   EXPECT_THROW(analyze({{path(), other}, {1}, false, ""}), Error);
 }
 
-// A figure of those who count is made of the log read again.
+// If someone is excluded, the log is read again for the figures of the others.
 TEST_F(LogFile, WhoIsLeftOutIsInNoFigure) {
   const std::string protocol = read_text_file(source_folder() + "/protocols/sorting.toml");
   write_session("touched nothing, left out", Purpose::main,

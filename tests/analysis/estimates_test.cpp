@@ -1,5 +1,5 @@
-// Estimates in every table, JSON and chart: of any technique and number of cubes; and what of the
-// paper may stand beside them.
+// Estimates in tables, JSON and charts, for any technique and number of cubes, and which published
+// figures are shown beside them.
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// Magnitude estimation: means, geometric means and exponents, by hand.
+// Magnitude estimation: means, geometric means and exponents, computed by hand.
 #include <gmock/gmock.h>
 
 #include "Figures.h"
@@ -18,7 +18,8 @@ Attempt& add_number(SessionData& data, double mass_g, double number) {
   return attempt;
 }
 
-// Of 100 g and 10 kg: one gives the square root, the other the number of grams and once 0.
+// Estimates of 100 g and 10 kg: one person gives the square root, the other the number of grams and
+// once 0.
 std::vector<SessionData> two_people() {
   SessionData root = session(1, "root"), grams = session(2, "grams");
   add_number(root, 100, 10);

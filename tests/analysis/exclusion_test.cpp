@@ -1,4 +1,4 @@
-// Who is left out, and what was declared: only what the protocol says.
+// Excluded participants and declared plans: only what the protocol says.
 #include <gmock/gmock.h>
 
 #include "Figures.h"

@@ -1,4 +1,4 @@
-// The summary on one terminal screen: its size, and that it names what deserves attention.
+// The summary on one terminal screen: its size, and that it names what needs attention.
 #include <gmock/gmock.h>
 
 #include <sstream>

@@ -1,4 +1,4 @@
-// Who took part, how well they were tracked, and each one's own threshold.
+// Participant flow, tracking quality, and each participant's own threshold.
 #include <gmock/gmock.h>
 
 #include "Figures.h"

@@ -1,5 +1,5 @@
 // Forced choices: thresholds against an independent fit (direct search of the same likelihood), and
-// that they stay out of the figures of three-way comparisons.
+// that they are excluded from the figures of three-way comparisons.
 #include <gmock/gmock.h>
 
 #include <map>
@@ -106,7 +106,7 @@ TEST(WeberFraction, OfAReferenceOfNoMassIsNone) {
   EXPECT_FALSE(find_estimate(summarized({data}).estimates, "forced_weber_fraction"));
 }
 
-// Whoever ran constant stimuli; the goodness itself is tested in tests/inference.
+// The goodness of fit itself is tested in tests/inference.
 TEST(ForcedChoice, FitsOfConstantStimuliAreJudged) {
   ConstantConfig config;
   config.levels = {-160, -80, -40, 40, 80, 160};

@@ -12,7 +12,7 @@ TEST(GnuplotQuoted, KeepsQuotesAndMovesOneThatWouldEndTheText) {
   EXPECT_EQ(gnuplot_quoted("'a b.db'"), "' ''a b.db'''");
 }
 
-// gnuplot would print a warning.
+// Otherwise gnuplot would print a warning.
 TEST(PlotPanel, OfOneValueHasARangeAroundIt) {
   const auto script_of = [](const std::string& rows) {
     PlotPanel panel;

@@ -1,4 +1,4 @@
-// Verdicts on the paper's hypotheses: what is said, and when it is left open.
+// Verdicts on the paper's hypotheses, and when they are inconclusive.
 #include <gmock/gmock.h>
 
 #include "MadeUpSessions.h"
@@ -14,7 +14,8 @@ namespace {
 using namespace made_up;
 using testing::HasSubstr;
 
-// People with so many right of `n_answered` C1 trials each, the rest of `n_trials` "I don't know".
+// People with these numbers of correct answers in `n_answered` C1 trials each; the rest of
+// `n_trials` are "I don't know".
 std::vector<SessionData> c1_study(const std::vector<int>& n_right, int n_answered, int n_trials) {
   std::vector<SessionData> sessions;
   for (int right : n_right) {

@@ -1,4 +1,4 @@
-// JNDs by reference: what is averaged first, and what is counted of the staircases.
+// JNDs by reference: the order of averaging, and the counts of staircases.
 #include "analysis/dataset/Jnd.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What was found beside the paper's own figures.
+// Estimates beside the paper's figures.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -54,7 +54,7 @@ TEST(PublishedBeside, HasThePapersIntervalsAndWhatWasFound) {
   EXPECT_EQ(named(summary, "C1 correct").published->sd, 9.6);
 }
 
-// Of 50, 60 and 400 g; ours is the mean of a log-normal distribution.
+// JNDs of 50, 60 and 400 g; Heft's mean is that of a log-normal distribution.
 TEST(PublishedBeside, ThePapersArithmeticMeanStandsBesideOurs) {
   std::vector<SessionData> sessions;
   for (const double jnd_g : {50.0, 60.0, 400.0}) {

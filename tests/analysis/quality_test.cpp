@@ -1,4 +1,4 @@
-// What is counted before anything else.
+// Counts of data quality.
 #include "analysis/dataset/Quality.h"
 
 #include <gtest/gtest.h>

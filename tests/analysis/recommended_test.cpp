@@ -117,7 +117,7 @@ struct DesignStudy {
 
 TEST(CoverageOf, Designs) {
   const int studies = std::min(n_studies(3), 100);
-  // By chance alone, medians of studies and shares of them differ by as much (three standard
+  // Medians of studies and shares of them differ by this much by chance alone (three standard
   // errors).
   const double chance = 3 * 0.1 * 1.25 / std::sqrt(studies);
   int n_ordered = 0;

@@ -1,5 +1,5 @@
-// Sensitivity, free of the criterion: what was put in is found, its interval holds it as often as
-// it says, and people who see nothing get no threshold.
+// Sensitivity without influence of the criterion: the simulated value is found, its interval
+// contains it as often as stated, and people who perceive nothing get no threshold.
 #include "analysis/measures/Sensitivity.h"
 
 #include <fmt/format.h>
@@ -96,7 +96,7 @@ TEST(ChoiceCurves, HaveTheModelsPredictionBehindThem) {
   EXPECT_THAT(curves(people), Not(HasSubstr("with filledcurves")));
 }
 
-// A threshold that is known to some factor, from people who say so independently.
+// A threshold with a known SD of its logarithm, from people with independent influences.
 MixedFit known(double threshold_75_g, double sd_log, const std::string& of) {
   MixedFit fit;
   fit.n = 13;
@@ -212,8 +212,8 @@ TEST(Sensitivity, ARatioIsOfTheSamePeopleIfSomeAreMissing) {
   EXPECT_GT(width(strangers), 2 * width(missing));
 }
 
-// What a study of ever more people would find: above minus below, of those whose staircases end
-// well.
+// The difference (above minus below) that a very large study would find, among people whose
+// staircases end well.
 double true_start_effect(const Population& population, const ComparisonDesign& design) {
   RandomStream stream(29, "very many people");
   const auto jnds = jnd_of(study(4000, population, {design}, stream));
@@ -240,7 +240,8 @@ TEST(CoverageOf, AboveMinusBelow) {
   }
 }
 
-// People who see nothing: how many studies print a threshold or take E2-H1 for supported.
+// Counts of studies of people who perceive nothing: those that print a threshold, and those that
+// support E2-H1.
 struct Misled {
   double thresholds_percent = 0, supported_percent = 0;
 };

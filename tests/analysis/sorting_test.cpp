@@ -16,7 +16,7 @@ namespace {
 using namespace made_up;
 using testing::ElementsAre;
 
-// Of all trials, or of those that were answered.
+// A share of all trials, or of answered ones.
 StudyEstimate share(const Summary& summary, const char* trials, const char* answer) {
   return figure(summary, "sorting_answers", {{"trials", trials}, {"answer", answer}});
 }

@@ -1,4 +1,4 @@
-// What doctor says of figures, whichever camera they came from.
+// The verdicts of heft doctor on measured figures, whichever camera they are from.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// So many pictures with the effector's tags on so many faces in view; of 0: without the effector.
+// Pictures with none, one and two of the effector's faces in view.
 Pictures seen_with_faces(int n_none, int n_one, int n_two) {
   Pictures pictures;
   const auto add = [&](int n, int n_faces) {
@@ -152,7 +152,7 @@ TEST(StreamVerdicts, CountLostPicturesByTimesAndNumbers) {
     return lost_verdict(pictures).finding;
   };
   EXPECT_THAT(lost({0, 1, 2, 4, 5, 8}, {0, 1, 2, 3, 4, 5}), HasSubstr("3 of 9 were lost"));
-  // Pictures that the program was too slow for are not lost by the camera.
+  // Pictures that the program dropped because it was too slow are not lost by the camera.
   EXPECT_THAT(lost({0, 1, 2, 4, 5, 8}, {0, 1, 2, 4, 5, 8}), HasSubstr("0 of 9 were lost"));
 }
 

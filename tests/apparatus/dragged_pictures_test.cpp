@@ -1,4 +1,4 @@
-// Tracker "mouse": pictures of the effector where somebody dragged it, at their time.
+// Tracker "mouse": pictures of the effector at its dragged pose at their time.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -51,7 +51,7 @@ TEST_F(Dragged, HasThePoseThatItWasDraggedToAtThatTime) {
   EXPECT_TRUE(second.sample.tracked);
 }
 
-// Skin is redder than it is blue, by far more than wood; nobody's hand is to be seen.
+// Skin has much more red than blue, unlike wood; no hand may be visible.
 TEST_F(Dragged, FilmsTheEffectorAndNoHand) {
   const auto skin_px = [](const Image& image) {
     int n = 0;

@@ -19,7 +19,7 @@ using ::testing::Le;
 using ::testing::Pointwise;
 using ::testing::SizeIs;
 
-// Gives what it was made with.
+// Returns the pictures that it was constructed with.
 class MadeUpPictures final : public PictureSource {
  public:
   explicit MadeUpPictures(std::vector<Picture> pictures) : pictures_(std::move(pictures)) {}
@@ -120,7 +120,7 @@ TEST(PacedPictures, AJumpInBetweenIsNotForgotten) {
   EXPECT_THAT(jumps, ElementsAre(false, false, true));
 }
 
-// A live camera of 60 pictures a second, that films nothing.
+// A live camera with 60 pictures a second, without an effector.
 TEST(PacedPictures, OfALiveCameraComeAtTheDisplaysRateAndNoneIsDropped) {
   std::uint8_t shade = 0;
   const auto grab = [&]() -> std::optional<GrabbedPicture> {

@@ -1,4 +1,4 @@
-// When the board counts as lost: after half a second without it, counted anew after every pause.
+// The board counts as lost after half a second without it; the time restarts after each pause.
 #include <gtest/gtest.h>
 
 #include "apparatus/ShippedApparatus.h"

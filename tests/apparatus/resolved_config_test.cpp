@@ -1,4 +1,4 @@
-// From options to what a session runs with.
+// Resolving options to a session's configuration.
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -185,7 +185,7 @@ TEST(Resolve, ARestingHandIsRefusedWhereAnswersNeedContact) {
   EXPECT_EQ(refusal(model(), protocol), "");
 }
 
-// Who answers, what films and what shows: every combination, and why it is refused.
+// Every combination of responder, tracker and view, and the reason for refusing it.
 TEST(Resolve, SaysWhichPlugsMayMeet) {
   const TemporaryFolder folder;
   const Plug film{"video", folder.file("film.avi")};

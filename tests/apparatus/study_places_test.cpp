@@ -1,4 +1,4 @@
-// Who is next in a study, from what its log says.
+// The next participant of a study, from its log.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ class Log {
  public:
   explicit Log(StudyPlan plan) : plan_(std::move(plan)) {}
 
-  // The next participant's session, that ends like this.
+  // Adds the next participant's session, which ends in this state.
   void add(SessionState state = SessionState::finished, Purpose purpose = Purpose::main,
            const std::optional<std::string>& id = {}) {
     const PlannedParticipant next = planned_participant(plan_, sessions, purpose, id);

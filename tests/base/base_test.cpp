@@ -120,7 +120,7 @@ TEST(Sha256, GivesTheStandardDigestOfAbc) {  // FIPS 180-2, appendix B.1
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
-// The clock of a machine with an empty battery.
+// A machine with an empty clock battery may have such times.
 TEST(Build, TimesBefore1970AreReadBack) {
   const auto at = [](std::chrono::milliseconds since_1970) {
     return utc_of(std::chrono::system_clock::time_point(since_1970));

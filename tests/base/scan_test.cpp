@@ -81,7 +81,7 @@ RC_GTEST_PROP(Scan, FindsThePointsThatATriangleHoldsAndNoOthers, (std::uint64_t 
   }
 }
 
-// Corners on points and edges through points, which must be counted exactly once.
+// Corners may lie on points, and edges may pass through points, which must be counted exactly once.
 RC_GTEST_PROP(Scan, TrianglesWithAnEdgeInCommonPartThePointsBetweenThem, ()) {
   const auto point = [] {
     return Vector2d(*rc::gen::inRange(-4, n_columns + 4), *rc::gen::inRange(-4, n_rows + 4));

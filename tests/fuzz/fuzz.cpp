@@ -1,6 +1,7 @@
-// Inputs of every kind that heft reads: whatever is in them, an Error is all that may come out.
+// Inputs of every kind that heft reads: whatever they contain, only an Error may be thrown.
 //
-// With clang's libFuzzer, a program for each kind: cmake --preset fuzz && cmake --build build-fuzz
+// With clang's libFuzzer, a program for each kind:
+//   cmake --preset fuzz && cmake --build build-fuzz
 //   build-fuzz/tests/fuzz/fuzz_scene -max_total_time=600 found/scene tests/fuzz/corpus/scene
 // Without it, the test `corpora` gives every file of the corpora to its kind.
 #include <cstdint>

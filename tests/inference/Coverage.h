@@ -1,4 +1,4 @@
-// How often intervals hold what they should, over made-up studies.
+// How often intervals contain the true value, over simulated studies.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,13 +11,14 @@
 
 namespace heft {
 
-/// How many studies to make up: few in an ordinary run, HEFT_STUDIES in the slow one.
+/// Number of simulated studies: few in an ordinary run, HEFT_STUDIES in the slow one.
 inline int n_studies(int in_ordinary_runs) {
   const char* asked = std::getenv("HEFT_STUDIES");
   return asked ? std::atoi(asked) : in_ordinary_runs;
 }
 
-/// What chance alone takes from a coverage of 95 % in so many studies: three standard errors.
+/// By how much a coverage of 95 % varies by chance with this number of studies: three standard
+/// errors.
 inline double by_chance_percent(int n) {
   return 3 * 100 * 0.218 / std::sqrt(static_cast<double>(n));
 }

@@ -1,4 +1,4 @@
-// Files of answers: what is read from every form, and what is refused where.
+// Files of answers: every form that can be read, and mistakes with their places.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -150,7 +150,7 @@ RC_GTEST_PROP(AnswerData, WhatIsWrittenIsRead, ()) {
   RC_ASSERT(only_group(text, psychometric) == written);
 }
 
-// Damaged files are read or refused with a place, and what is read makes sense.
+// Damaged files are read or refused with a place, and values that are read are valid.
 RC_GTEST_PROP(AnswerData, DamagedFilesAreReadOrRefused, ()) {
   std::string text = "x,n_positive,n,who\n1,2,3,\"a\"\n2.5,3,3,b\n-3e1,0,4,\"b\"\n";
   const int n_damages = *rc::gen::inRange(1, 6);

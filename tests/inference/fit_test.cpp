@@ -1,5 +1,6 @@
-// Fits on made-up people: what is found is what was put in, intervals hold it as often as they say,
-// and where nothing can be said nothing is. Against other programs: tests/golden/fit.
+// Fits of simulated people: the true parameters are found, intervals contain them as often as
+// stated, and there are no values where the data do not determine them. Against other programs:
+// tests/golden/fit.
 #include "inference/Fit.h"
 
 #include <gmock/gmock.h>
@@ -48,7 +49,7 @@ AnswersByLevel choices_of(const IndecisionParameters& person, const std::vector<
 const std::vector<double> seven{1, 2, 3, 4, 5, 6, 7};
 const std::vector<double> compared_g{0, 50, 100, 150, 200, 300};
 
-// How often in 100 the 95 % interval of a parameter holds what was put in.
+// In how many of 100 samples the 95 % interval of a parameter contains the true value.
 Interval interval_of(const FittedParameter& fitted) {
   constexpr double open_end = std::numeric_limits<double>::infinity();
   return {fitted.low.value_or(-open_end), fitted.high.value_or(open_end)};
@@ -99,7 +100,7 @@ TEST(IndecisionFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
   }
 }
 
-// In 100, with few and many trials.
+// In how many of 100 samples coin flips have a threshold, with few and many trials.
 double coins_with_a_threshold(double share, const FitOptions& options) {
   constexpr int n_coins = 300;
   constexpr std::array n_per_level{3, 10, 40};
@@ -256,7 +257,7 @@ TEST(IndecisionFit, WhatDoesNotExistIsNotGivenWhileSensitivityIs) {
   EXPECT_GT(fit.parameter("sensitivity").value, 0.005);
 }
 
-// With units of another size, or levels from another origin, the same is found.
+// Other units, or levels from another origin, give the same fit.
 RC_GTEST_PROP(PsychometricFit, UnitsAndOriginDoNotMatter, ()) {
   RandomStream random(*rc::gen::arbitrary<std::uint32_t>(), "units");
   const Person person{{PsychometricShape::logistic, {}}, {4, 0.7, 0, 0}};
@@ -298,7 +299,7 @@ double high_end(const FittedParameter& parameter) {
   return parameter.high.value_or(std::numeric_limits<double>::infinity());
 }
 
-// @return by how much of itself, or of the value if that is more
+// @return how much narrower, relative to the interval or to the value, whichever is more
 double narrower_by(const FittedParameter& free, const FittedParameter& fixed) {
   const double width = high_end(fixed) - low_end(fixed);
   const double scale =
@@ -308,8 +309,8 @@ double narrower_by(const FittedParameter& free, const FittedParameter& fixed) {
   return std::max(low, high) / scale;
 }
 
-// Where the likeliest lapse rate is the one that was fixed, every other lapse rate that is likely
-// can only make the others less sure.
+// Where the likeliest lapse rate is the fixed one, other likely lapse rates can only make the other
+// parameters less certain.
 TEST(IndecisionFit, AFreeLapseNeverMakesNarrower) {
   int n_compared = 0;
   for_some_people(150, "free lapse", [&](const AnswersByLevel& answers) {
@@ -350,7 +351,7 @@ void expect_same(const std::optional<double>& there, const std::optional<double>
   }
 }
 
-// Absolute masses instead of differences: only the bias is another, that at level 0.
+// Absolute masses instead of differences change only the bias, which is that at level 0.
 TEST(IndecisionFit, TheOriginOfTheLevelsOnlyMattersToTheBias) {
   for_some_people(100, "origin", [&](const AnswersByLevel& answers) {
     const Fit here = fit_indecision(answers, {{}, 0, 0});
@@ -367,7 +368,8 @@ TEST(IndecisionFit, TheOriginOfTheLevelsOnlyMattersToTheBias) {
         expect_same(b.low, a.low, 1e-4 * width);
         expect_same(b.high, a.high, 1e-4 * width);
       }
-      // Far from all levels bias is sensitivity's, with the other sign.
+      // With an origin far from all levels, the bias varies with the sensitivity, with opposite
+      // sign.
       const FittedParameter &bias = there.parameter("bias"), &s = here.parameter("sensitivity");
       if (off < 1e5 || !bias.value || !s.value || !bias.low || !bias.high || !s.low || !s.high)
         continue;
@@ -377,8 +379,8 @@ TEST(IndecisionFit, TheOriginOfTheLevelsOnlyMattersToTheBias) {
   });
 }
 
-// A free lapse rate makes several hills, and where answers are separated the estimate lies far out:
-// an interval's end is the same from wherever it is looked for.
+// A free lapse rate causes several local maxima, and with separated answers the estimate is far
+// out: the interval's end must not depend on where the search starts.
 TEST(IndecisionFit, WithAFreeLapseTheOriginDoesNotMoveTheEnds) {
   RandomStream random(1, "origin, free lapse");
   for (int i = 0; i < 60; ++i) {
@@ -398,8 +400,8 @@ TEST(IndecisionFit, WithAFreeLapseTheOriginDoesNotMoveTheEnds) {
   }
 }
 
-// The answers are separated, so that the top lies at infinity; where a search for it ends is for
-// the last digits to say, and an origin far away changes these.
+// The answers are separated, so that the maximum is at infinity; the last digits decide where a
+// search ends, and a distant origin changes these.
 TEST(IndecisionFit, TheLastDigitsOfTheLevelsDoNotMoveTheEnds) {
   const AnswersByLevel answers{{-394, {1, 1, 0}}, {-254, {2, 0, 0}}, {-249, {2, 0, 0}},
                                {-205, {1, 1, 0}}, {-102, {1, 0, 1}}, {-98, {0, 2, 0}},
@@ -484,7 +486,7 @@ TEST(SameDifferentFit, HasNoThresholdWithoutInformation) {
       << "larger differences were answered by same";
 }
 
-// Of coins at most 5 % seem to have a threshold.
+// At most 5 % of coins seem to have a threshold.
 TEST(SameDifferentFit, OfCoinsIsNotIdentifiable) {
   RandomStream random(3, "coins");
   int n_identifiable = 0;

@@ -1,4 +1,4 @@
-// The search for maxima and profiles where both are known by hand.
+// The search for maxima and profiles of functions with known ones.
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Normal around (1, 2), with SDs 1 and 2 and a correlation of .6; counts how often it is asked.
+// Normal around (1, 2), with SDs 1 and 2 and a correlation of .6; counts its evaluations.
 struct Normal {
   double operator()(const Parameters& at, Derivatives* derivatives) {
     ++n_asked;
@@ -54,7 +54,7 @@ TEST(MaximumLikelihood, AtABoundTheOthersGiveWay) {
   EXPECT_NEAR(found.log_likelihood, -1.0 / 8, 1e-12);
 }
 
-// Two hills of which the second is higher, and a ridge that bends upwards between them.
+// Two local maxima, of which the second is higher, and a curved ridge between them.
 double two_hills(const Parameters& at, Derivatives* derivatives) {
   const double x = at[0];
   const double first = std::exp(-(x + 2) * (x + 2) / 2),

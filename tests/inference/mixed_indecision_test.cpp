@@ -1,5 +1,5 @@
-// Thresholds of several people: what was put in is found, and where there is none the reason is the
-// true one, for all together and for each person.
+// Thresholds of several people: the true values are found, and where there is none the reason is
+// right, for all together and for each person.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -55,7 +55,7 @@ std::vector<OwnThreshold> own_of(const People& people) {
   return own;
 }
 
-// One person, fewer than can be pooled, and enough.
+// Tests one person, too few people to be pooled, and enough.
 void expect_no_threshold(const Observer& observer, const std::string& reason) {
   for (const int n_people : {1, 6}) {
     const People people = people_like(observer, n_people, 10);
@@ -182,7 +182,7 @@ TEST(MixedIndecision, OfOnePersonsChoicesAmongManyIsNone) {
   EXPECT_NE(found.why, "");
 }
 
-// Otherwise the search for a profile's end at a bound may never get there.
+// Otherwise the search for a profile's end at a bound might not terminate.
 TEST(PopulationLikelihood, WhatIsHeldStaysToTheBit) {
   std::vector<std::vector<LevelAnswers>> people;
   for (const auto& [name, answers] : people_like({200, 0}, 3)) {

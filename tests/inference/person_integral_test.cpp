@@ -1,5 +1,5 @@
-// One person's likelihood with their effects integrated out: against sums over a dense grid and
-// against differences.
+// One person's likelihood, integrated over their effects: against sums over a dense grid and
+// against finite differences.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace heft {
 namespace {
 
-// Of a random population and a person drawn from it.
+// A random population and a person drawn from it.
 struct Example {
   Parameters population = Parameters(n_population_parameters);
   std::vector<LevelAnswers> answers;
@@ -53,7 +53,7 @@ double given_effects(const Example& of, double log_s, double log_tau, double bia
   return sum;
 }
 
-// The trapezoidal rule is exact to many digits for what falls to 0 on both sides.
+// The trapezoidal rule is very accurate for functions that fall to 0 on both sides.
 double by_grid(const Example& of) {
   const Parameters& at = of.population;
   const double rho = std::tanh(at[arctanh_correlation]);
@@ -110,7 +110,7 @@ TEST(PersonIntegral, HasTheDerivativesThatDifferencesHave) {
   }
 }
 
-// Seen from a person's own answers, mirrored levels and answers are the same.
+// Mirrored levels and answers have the same likelihood.
 TEST(PersonIntegral, HasNoPreferredSide) {
   Example of = example(3);
   PersonIntegral person(of.answers);

@@ -1,4 +1,4 @@
-// Percentages: which interval is used when, and that participants count alike.
+// Percentages: which interval is used, and that participants have equal weight.
 #include "inference/Proportion.h"
 
 #include <gtest/gtest.h>
@@ -113,7 +113,7 @@ class OwnShares {
   std::array<double, 5000> shares_{};
 };
 
-// How many trials each has.
+// Number of trials of each person.
 enum class Trials { five, four_to_twelve, forty, one_to_twenty };
 
 int n_trials(Trials trials, int person) {

@@ -12,7 +12,7 @@
 
 namespace heft {
 
-/// The names of the simulators with which this holds, as their table says.
+/// Names of the simulators in the table that satisfy a condition.
 template <typename Holds>
 std::vector<std::string> simulators_where(const Holds& holds) {
   std::vector<std::string> names;
@@ -21,10 +21,10 @@ std::vector<std::string> simulators_where(const Holds& holds) {
   return names;
 }
 
-/// Those that model every hand movement.
+/// Simulators that model every hand movement.
 inline const std::vector<std::string> every_solver = simulators_where(
     [](const SimulatorEntry& entry) { return entry.for_sessions && entry.fit_for.several_cubes; });
-/// Those of one straight push.
+/// Simulators of one straight push.
 inline const std::vector<std::string> every_straight_one =
     simulators_where([](const SimulatorEntry& entry) { return !entry.for_sessions; });
 

@@ -28,7 +28,7 @@ double deepest_m(const Scene& scene, const WorldState& state) {
   return deepest_m;
 }
 
-// However few steps are made.
+// At any number of steps.
 TEST(Boxes, AStiffCloneStaysOutsideTheCubeThatItPushes) {
   for (const double stiffness_n_per_m : {500.0, 1500.0, 5000.0, 5e4, 5e5, 1e7})
     for (const double rate_hz : {15.0, 30.0, 60.0, 120.0, 240.0}) {
@@ -133,7 +133,7 @@ TEST(Boxes, NothingCreepsWhilePressedForTenSeconds) {
   }
 }
 
-// In C1 nothing depends on a cube's mass, unless cubes touch cubes.
+// In C1 nothing depends on a cube's mass, unless cubes touch each other.
 TEST(Boxes, ACoupledCloneIsBlindToMass) {
   for (double side_m : {0.0, 0.006, 0.028}) {
     for (double yaw_rad : {0.0, 0.5}) {

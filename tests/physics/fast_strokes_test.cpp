@@ -102,7 +102,7 @@ TEST(PressedClone, SlipsWhenFrictionGives) {
   }
 }
 
-// v^2 / 2 mu g, whatever pushed it until now.
+// Distance v^2 / (2 mu g), whatever pushed the cube before.
 TEST(SlidingCube, StopsWhereFrictionStopsIt) {
   for (const double speed_m_s : {0.1, 0.5, 1.0, 2.0})
     for (const int rate_hz : {60, 240, 960}) {

@@ -1,4 +1,4 @@
-// Pushes of one cube: the clone's lag shows friction's force.
+// Pushes of one cube: the clone's lag is proportional to friction.
 #include <gtest/gtest.h>
 
 #include "physics/Pushes.h"

@@ -48,7 +48,7 @@ double course(int kind, double s) {
   return kind == 1 ? smooth : std::sin(0.75 * std::numbers::pi * smooth);
 }
 
-// A cube with its center so far along the heading and beside it.
+// A cube whose center is at these distances along the heading and beside it.
 Cube placed(const RandomScene& in, double mass_kg, double along_m, double beside_m) {
   Cube cube;
   cube.mass_kg = mass_kg;
@@ -174,7 +174,8 @@ unsigned from_environment(const char* name, unsigned otherwise) {
   return text ? static_cast<unsigned>(std::atoi(text)) : otherwise;
 }
 
-// HEFT_SCENES draws more, HEFT_SCENE_SEED others; a scene can be run alone by its seed.
+// HEFT_SCENES sets the number of scenes, HEFT_SCENE_SEED the first seed; with both, a scene can be
+// run alone.
 TEST_P(RandomScenes, AreTheReferences) {
   const unsigned n = from_environment("HEFT_SCENES", 60);
   const unsigned first = from_environment("HEFT_SCENE_SEED", 1);
@@ -227,7 +228,7 @@ TEST(RandomScenes, SticksAndSettles) {
   }
 }
 
-// The reference against a closed form.
+// Checks the reference itself.
 TEST(SlidingReference, IsTheClosedFormOfAPush) {
   for (unsigned seed = 0; seed < 20; seed += 5) {
     RandomScene made = random_scene(seed);

@@ -1,4 +1,4 @@
-// Every simulator of the table runs the closed forms of what it declares itself fit for.
+// Runs the closed forms on every simulator whose table entry declares that it models them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ std::vector<std::string> simulators_fit_for(bool Fitness::*kind) {
   return simulators_where([&](const SimulatorEntry& entry) { return entry.fit_for.*kind; });
 }
 
-// How far the clone is behind the effector along a stroke, at the end of it.
+// Distance of the clone behind the effector along a stroke, at its end.
 double lag_m(const std::string& simulator, const Scene& scene, const Stroke& stroke) {
   const double end_s = stroke.duration_s() - 0.001;
   const WorldState state = run(*make_simulator(simulator), scene, along(stroke), end_s, rate_hz);

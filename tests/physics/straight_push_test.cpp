@@ -15,7 +15,7 @@ namespace {
 using contact_scenes::smooth_push;
 using contact_scenes::turned;
 
-// The same polyline for any simulator and any step: the hand's poses `poses_hz` times a second.
+// The same polyline for any simulator and step: the hand's poses at a rate of `poses_hz`.
 auto polyline(const std::function<Pose(double)>& path, double poses_hz) {
   return [=](double t_s) {
     const double i = std::floor(t_s * poses_hz + 1e-9), rest = t_s * poses_hz - i;

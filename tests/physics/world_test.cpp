@@ -23,7 +23,7 @@ TEST(RestingCubes, StayWhereTheyAre) {
   }
 }
 
-// The effector leans on the cube all the time, so that it never sleeps.
+// The effector presses the cube all the time, so that it never sleeps.
 TEST(RestingCubes, StayWhileTheyArePressedLightly) {
   const Stroke stroke{.speed_m_s = 0.1, .length_m = 0.004};
   const WorldState state = run(*make_simulator("bullet"), one_cube(0.2), along(stroke), 60);

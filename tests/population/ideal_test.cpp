@@ -1,4 +1,4 @@
-// The ideal observer against every other model that looks, with the same hands.
+// The ideal observer against every other model that uses what is displayed, with the same hands.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Studies of simulated people against the same studies made one by one.
+// Studies of simulated people, against the same studies run one by one.
 #include "population/Power.h"
 
 #include <gmock/gmock.h>
@@ -36,7 +36,7 @@ class PowerTest : public ::testing::Test {
       (fs::temp_directory_path() / ("heft-power-test-" + std::to_string(::getpid()))).string();
 };
 
-// What the result says of each study, as text.
+// The results of each study, as text.
 std::string text_of(const Power& power) {
   std::string text;
   for (const PowerAtSize& size : power.sizes) {

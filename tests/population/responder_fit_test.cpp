@@ -1,5 +1,5 @@
-// Populations fitted to figures: known ones are found again, and what the figures do not say stays
-// open.
+// Populations fitted to figures: known ones are recovered, and parameters that the figures do not
+// determine are reported as such.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ const Bank& criterion_and_noise() {
   return bank;
 }
 
-// The figures of a study of people with these parameters; others vary as they do.
+// Figures of a study of people with these parameters; other parameters vary as usual.
 std::vector<ReportedFigure> study_of(const std::vector<Parameter>& parameters, int n) {
   const ResolvedConfig config = jnd_by_surrogate();
   std::vector<std::vector<double>> values(places.size());

@@ -36,7 +36,7 @@ TEST(JudgmentBlock, OfTheExampleHasItsKeysAndItsQuestionInBothLanguages) {
   }
 }
 
-// A lab's own task needs no program.
+// A lab can define its own task without programming.
 TEST(JudgmentBlock, OfTheExampleIsShort) {
   const std::string both = example() + content_of(question_file("en"));
   EXPECT_LT(std::ranges::count(both, '\n'), 40);

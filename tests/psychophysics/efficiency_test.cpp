@@ -1,4 +1,4 @@
-// How well the paper's staircase and Psi estimate a person's threshold in equally many trials, for
+// Errors of thresholds by the paper's staircase and by Psi with equal numbers of trials, for
 // observers of the indecision model. results/procedures/measure.py runs it with more people.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 namespace heft {
 namespace {
 
-/// How many people to draw: few in an ordinary run, HEFT_PEOPLE in that of results/procedures.
+/// Number of simulated people: few in an ordinary run, HEFT_PEOPLE in that of results/procedures.
 std::optional<int> n_people_asked() {
   const char* asked = std::getenv("HEFT_PEOPLE");
   return asked ? std::optional(std::atoi(asked)) : std::nullopt;

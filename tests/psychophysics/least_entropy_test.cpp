@@ -103,8 +103,8 @@ TEST(LeastEntropy, SymmetricLevelsAreChosenByTheLower) {
   EXPECT_EQ(QuestPlus(config).next_level(level_stream(1, "s")), -10);
 }
 
-// Observers drawn from the prior, for whom intervals hold the truth in 95 %; by the cumulative sums
-// of a grid of 49 values, in 93 %.
+// Observers are drawn from the prior. 95 % intervals contain the true value in 95 %; by the
+// cumulative sums of a grid of 49 values, in 93 %.
 TEST(LeastEntropy, EstimatesWhatObserversHave) {
   PsiConfig config = test::heavier_at_200g(60);
   config.sensitivity = test::ratios(0.002, 0.05, 49);
@@ -178,7 +178,8 @@ TEST(LeastEntropy, AThresholdBeyondTheGridHasABound) {
   EXPECT_EQ(test::estimate_of(detection, 2, observer(200)).censored, Censored::none);
 }
 
-// Kept or computed again, they are equal: a replay may follow other trials than the session did.
+// Cached and recomputed values must be equal: a replay may follow other trials than the session
+// did.
 TEST(LikelihoodTable, GivesTheSameWhetherItKeptItOrNot) {
   const GridSpace space = test::heavier_at_200g(40).space();
   const LikelihoodTable used(space);

@@ -11,7 +11,7 @@ namespace {
 
 using testing::Optional;
 
-/// Runs them to their end, for an observer who sees what is above `threshold`.
+/// Runs them to their end, for an observer who perceives levels above `threshold`.
 std::vector<Procedure> run(std::vector<Procedure> staircases, const InterleaveConfig& config,
                            double threshold) {
   std::optional<std::size_t> previous;

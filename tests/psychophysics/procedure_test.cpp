@@ -70,7 +70,7 @@ Censored censored(const UpDownConfig& config, std::string_view answers) {
 
 TEST(Censoring, IsNoneWhereTheReversalsThatCountKeepAwayFromTheBounds) {
   EXPECT_EQ(censored(test::paper_15g(), "+++-+-+-+-+-+-+-"), Censored::none);
-  // It hits the floor on its way, but comes back for the reversals that count.
+  // It reaches the floor early, but the reversals in the estimate are above it.
   EXPECT_EQ(censored({.start = 10, .step = 10, .floor = 0, .stop_reversals = 4}, "++----+-+-+"),
             Censored::none);
 }

@@ -50,7 +50,7 @@ class Child {
     return ::read(from_child_, &byte, 1) == 1;
   }
 
-  /// Everything until the child closes the pipe.
+  /// Reads until the child closes the pipe.
   std::string read_all() {
     std::string all;
     char bytes[4096];

@@ -16,7 +16,7 @@ namespace heft::testing {
 
 class StoredSession {
  public:
-  /// @param stop_after stops within the trial after so many, which is voided; none: to the end
+  /// @param stop_after completed trials, after which the next one becomes void; none: to the end
   StoredSession(const Protocol& protocol, const std::string& responder, std::uint64_t seed,
                 bool keep_frames = true, std::optional<int> stop_after = {})
       : path_(std::filesystem::temp_directory_path() /

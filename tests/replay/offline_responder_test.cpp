@@ -1,4 +1,4 @@
-// Models judge what somebody else saw.
+// Models answer what another participant was shown.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -32,8 +32,8 @@ GroupScores total(const std::vector<JudgedTrial>& trials) {
   return scores_of(trials, 1, ScoreGroups::all).front();
 }
 
-// Nothing is shared with the streams of the session, or the model would predict itself better than
-// it can.
+// A model shares no random stream with the session, or it would predict its own answers better than
+// possible.
 TEST(Judging, AModelsOwnLogsScoreAsItExpects) {
   const Protocol protocol = shipped_protocol("examples/paired_staircases");
   std::vector<JudgedTrial> trials;

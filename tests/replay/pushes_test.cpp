@@ -1,4 +1,4 @@
-// What the log tells of pushes, against the frames that were displayed.
+// Pushes in the log, against the displayed frames.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,8 @@ Pushes told(const std::vector<CubeRow>& cubes, int attempt_index) {
   return most;
 }
 
-// The largest lag while a cube is touched, and how far apart the effector's places then are.
+// The largest lag while a cube is touched, and the extent of the effector's positions during the
+// touch.
 Pushes shown(const std::vector<FrameRow>& frames) {
   Pushes most;
   std::vector<Eigen::Vector3d> places_m;

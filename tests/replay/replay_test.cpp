@@ -1,4 +1,4 @@
-// Sessions that were run in memory, stored, and verified.
+// Verifies sessions that were run in memory and stored.
 #include "replay/Replay.h"
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -28,7 +28,7 @@
 namespace heft {
 namespace {
 
-// Pushes the middle of the row to and fro, and answers in every trial `delay_s` after a picture.
+// Pushes the middle cube to and fro, and answers every trial `delay_s` after a picture.
 class LateAnswers final : public Responder {
  public:
   explicit LateAnswers(double delay_s) : delay_s_(delay_s) {}
@@ -116,7 +116,7 @@ TEST_F(Replay, LogsOfOlderVersionsAreVerified) {
       EXPECT_FALSE(found.first) << "session " << session.session_id << ": " << found.first->what
                                 << ", logged " << found.first->logged << ", came out "
                                 << found.first->replayed;
-      // Differences that are only measured are not demanded.
+      // Poses of another build must agree within 1e-6 m.
       EXPECT_LE(found.largest_difference_m, 1e-6) << "session " << session.session_id;
       if (found.n_other_edition == 0) {
         EXPECT_EQ(found.largest_of_other_edition_m, 0);
@@ -148,7 +148,7 @@ TEST_F(Replay, AnswersLaterThanTheNextPicturesAreReplayedExactly) {
   }
 }
 
-// The log has the effector as it was measured; what was predicted from it follows again.
+// The log has the measured pose, from which the prediction is recomputed.
 TEST_F(Replay, APredictionToWhenItIsSeenIsReplayedExactly) {
   see_through("input = \"extrapolate\"\npredict_s = 0.05\n");
   LateAnswers responder(0.05);
@@ -161,7 +161,7 @@ TEST_F(Replay, APredictionToWhenItIsSeenIsReplayedExactly) {
     EXPECT_EQ(frame.effector.position_m, responder.hand(frame.trial_t_s).pose.position_m);
 }
 
-// Over its place a cube does not appear, and the clone is just where it is predicted.
+// No cube appears where the effector is, and the clone is at the predicted pose.
 TEST(SeeThrough, TheCloneIsAheadAndTheEffectorAsMeasured) {
   Protocol protocol = testing::small_protocol();
   protocol.simulator.input.predict_s = 0.1;
@@ -175,7 +175,7 @@ TEST(SeeThrough, TheCloneIsAheadAndTheEffectorAsMeasured) {
   ASSERT_TRUE(frame.clone);
   EXPECT_NEAR(frame.clone->position_m.y(), -0.06, 1e-12);
   EXPECT_TRUE(frame.cubes.empty());
-  // Still within the clear distance, but seen beyond it.
+  // Captured within the clear distance, but predicted beyond it.
   sample.t_capture_s = 0.1;
   sample.pose.position_m.y() = -0.075;
   EXPECT_EQ(world.advance(sample).frame.cubes.size(), 3u);

@@ -1,4 +1,4 @@
-// Logged frames shown again.
+// Display of logged frames.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

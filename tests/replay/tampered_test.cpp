@@ -1,4 +1,4 @@
-// A session's log that somebody changed: whatever was changed, replay finds it, and soon.
+// Changes of a session's log: replay finds each of them quickly.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -30,7 +30,7 @@ RecordedSession simulated_session() {
   return session;
 }
 
-// The session with entries changed or left out, as if it had been logged so: its digests hold.
+// The session with changed or omitted entries, logged anew so that its digests are valid.
 using Forge = std::function<bool(RecordedEntry&)>;
 RecordedSession forged(const RecordedSession& session, const Forge& keeps) {
   RecordedSession copy(session.header());
@@ -61,7 +61,7 @@ class TamperedReplay : public ::testing::Test {
     const Verification found = verified();
     return found.first ? found.first->what : "";
   }
-  // With every rule of the schema off.
+  // Executes SQL with all constraints of the schema disabled.
   int change(const std::string& sql) const {
     SQLite::Database database(file, SQLite::OPEN_READWRITE);
     database.exec("PRAGMA ignore_check_constraints = ON; PRAGMA foreign_keys = OFF");
@@ -132,7 +132,7 @@ TEST_F(TamperedReplay, AnEndThatIsCutOffIsMissed) {
   EXPECT_NE(divergence(), "");
 }
 
-// Nobody simulates a thousand million seconds to find out.
+// A replay must not simulate a thousand million seconds first.
 TEST_F(TamperedReplay, TimesThatAreFarOffAreFoundBeforeTheyAreSimulated) {
   store(session());
   ASSERT_GT(change("UPDATE frame SET trial_t_s = trial_t_s + 1e9"), 100);
@@ -189,7 +189,7 @@ class EveryColumn : public TamperedReplay {
     return found;
   }
 
-  // Changes the value as little as it can be. @return whether the table took it
+  // Makes the smallest possible change of the value. @return whether the table accepted it
   bool step(const std::string& table, const std::string& column, std::int64_t rowid) const try {
     std::filesystem::copy_file(whole, file, std::filesystem::copy_options::overwrite_existing);
     SQLite::Database database(file, SQLite::OPEN_READWRITE);
@@ -229,7 +229,7 @@ TEST_F(EveryColumn, ChangedByOneStepIsFound) {
   const std::uint64_t seed = 20261122;
   RandomStream random(seed, "rows");
   int n_columns = 0;
-  // The closed lists hold no data; a row's own number is nothing but its place.
+  // The closed lists hold no data, and the row id only determines the order.
   for (const std::string& table : list("SELECT name FROM sqlite_master WHERE type = 'table' AND "
                                        "name NOT LIKE 'list_%' AND name NOT LIKE 'sqlite_%'"))
     for (const std::string& column :

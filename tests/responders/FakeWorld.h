@@ -58,7 +58,7 @@ class World {
 
  private:
   static constexpr double lag_m_per_g = 157e-6;  // 0.8 * 9.81 / 50 N/m
-  // Cubes further away return once they are untouched and their place is clear.
+  // A cube further away returns when it is untouched and its place is clear.
   static constexpr double half_depth_m = 0.15;
   static constexpr double clear_m = 0.02;
 
@@ -92,7 +92,7 @@ class World {
   void begin_touch(std::size_t i, double depth_m) {
     touching_[i] = true;
     ++n_pushes_[i];
-    // Between two calls the tip gets no further than this.
+    // The tip moves less than this between two calls.
     if (depth_m > 0.01) ++n_side_hits_;
   }
 

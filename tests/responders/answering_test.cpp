@@ -114,7 +114,7 @@ TEST_F(IntroductionTest, NoticesAWrongChoiceByTheScreenAlone) {
   until(1.2);
   EXPECT_TRUE(answering_.free());
   EXPECT_THAT(answering_.wrong_slots(), testing::ElementsAre(2));
-  // "Try again" of the choice before says nothing about the next one.
+  // "Try again" after the previous choice must not affect the next one.
   answering_.give(choosing(1), 2);
   ASSERT_EQ(until(3).size(), 1u);
   EXPECT_FALSE(answering_.free());

@@ -1,4 +1,4 @@
-// The simulated hand: human strokes, careful ways.
+// The simulated hand: speed and shape of strokes, and paths that avoid other cubes.
 #include "responders/hand/Hand.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ bool is_stroke(const HandMove& move) {
          height_m(move.from) < 0.03;
 }
 
-// Explores a whole row and hands back every movement that the hand made.
+// Explores a whole row and returns the movements of the hand.
 std::vector<HandMove> explore(World& world, const Stage& stage, std::uint64_t seed) {
   Hand hand(default_parameters(), seed, {1, 1, "sorting", stage});
   std::vector<int> cubes(stage.slots_m.size());

@@ -1,4 +1,4 @@
-// The table of parameters: what files may set, and that every row does something.
+// The table of parameters: which files may set them, and that every row has an effect.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -142,7 +142,7 @@ TEST(Populations, MistakesAreReportedAtTheirPlaces) {
               HasSubstr("p.toml:3:1: no distribution has all these correlations together"));
 }
 
-// Everything a participant does in a few trials.
+// All actions of a participant in a few trials.
 std::string trace(const std::vector<Parameter>& parameters) {
   std::string text;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
@@ -168,7 +168,7 @@ TEST(Parameters, EveryOneOfThemChangesWhatAParticipantDoes) {
   EXPECT_TRUE(trace({}) == usual);
   for (const char* cue : {"cube_motion", "cd_ratio", "moved", "sliding_offset"})
     EXPECT_TRUE(trace({{"cue", std::string(cue), {}}}) != usual) << cue;
-  // Two belong to a mechanism that another one switches on.
+  // Two rows have an effect only if another parameter enables their mechanism.
   const std::map<std::string_view, Parameter> switches{
       {"haptic_mm", {"haptic_noise_mm", 2.0, {}}},
       {"criterion_persistence", {"criterion_drift_mm", 10.0, {}}}};

@@ -1,4 +1,4 @@
-// The simulated eye: what pictures tell, and what they don't.
+// The simulated eye: percepts of displayed frames.
 #include "responders/perception/Perception.h"
 
 #include <gmock/gmock.h>
@@ -50,7 +50,7 @@ std::vector<double> percepts_mm(const ResponderParameters& parameters,
   return percepts_mm(parameters, stage, World(stage, "C2", masses_g));
 }
 
-// Judging looks at these frames alone.
+// Offline judging uses only the frames with touches.
 TEST(Perception, FramesWithoutTouchesShowNothing) {
   const Stage stage = fake::row_of(3, 15);
   const TrialView trial{1, 1, "sorting", stage};
@@ -128,7 +128,7 @@ TEST(Perception, TheMissingMotionOfACubeIsACueAsWell) {
     EXPECT_GT(percept_mm, last_mm) << mass_g << " g";
     last_mm = percept_mm;
   }
-  // In C1 it is what the tip travels before it meets the cube, for any mass.
+  // In C1 the percept is the distance that the tip moves before it meets the cube, for any mass.
   const Stage stage = fake::row_of(2);
   const auto in_C1 = percepts_mm(parameters, stage, World(stage, "C1", {15, 800}));
   for (double percept_mm : in_C1) EXPECT_LE(percept_mm, 4.001);
@@ -161,7 +161,7 @@ TEST_F(PictureTest, ACubeCountsAsLookedAtOnceItIsSeenTouched) {
   EXPECT_THAT(perception_.not_looked_at(), ElementsAre(0, 1));
 }
 
-// Pictures further apart than the eye integrates over: each reading counts in full.
+// The pictures are further apart than the eye's integration time, so that each counts in full.
 TEST_F(PictureTest, ThePerceptIsTheMeanOfLooks) {
   perception_.see(touching(1, 1));  // its first picture has lasted for no time yet: 0 mm
   perception_.see(touching(1, 5));

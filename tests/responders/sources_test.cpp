@@ -1,4 +1,5 @@
-// No figure of the paper's results may be in the code of those who are compared with it.
+// The code of simulated participants must not contain figures of the paper's results, with which
+// they are compared.
 #include <gtest/gtest.h>
 
 #include <filesystem>

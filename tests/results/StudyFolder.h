@@ -73,7 +73,7 @@ class StudyFolder {
     return csv;
   }
 
-  /// Drawn, and nothing in it that is no number.
+  /// Whether the chart exists and contains no invalid number.
   bool has_chart(const std::string& file) const {
     const std::string svg = text(file);
     return svg.find("<svg") != std::string::npos && svg.find("nan") == std::string::npos;

@@ -12,7 +12,7 @@
 namespace heft {
 namespace {
 
-// Straight above the upper face, which alone is seen, all light stored as it is.
+// The camera is straight above, so that only the upper face is visible; light is stored linearly.
 SyntheticSettings from_above() {
   SyntheticSettings settings;
   settings.camera_from_board = {{0, 0, 0.4}, Eigen::Quaterniond(0, 1, 0, 0)};
@@ -27,7 +27,7 @@ Apparatus with_upper_tag() {
   return apparatus;
 }
 
-// Upright and level edges between cells, in cells.
+// Total length of vertical and horizontal edges between cells, in cells.
 int edges_of(const TagPattern& pattern) {
   int n = 0;
   for (int row = 0; row < pattern.n_cells; ++row)
@@ -38,8 +38,9 @@ int edges_of(const TagPattern& pattern) {
   return n;
 }
 
-// Edges end in corners, which tell a little less. An edge of contrast c in normal blur of s and
-// noise of v tells c^2 / (2 sqrt(pi) s v) of a shift across it, for each pixel of its length.
+// Edges end in corners, which have slightly less information. An edge of contrast c, with a normal
+// blur of s and noise of v, has the information c^2 / (2 sqrt(pi) s v) on a shift across it, for
+// each pixel of its length.
 TEST(TipBound, AShiftIsBoundedByTheLengthOfAllEdges) {
   const Apparatus apparatus = with_upper_tag();
   const SyntheticSettings settings = from_above();

@@ -20,7 +20,8 @@ SceneTrack track_of(const BenchScene& scene, int rate_hz) {
   return run_scene(make_simulator("boxes"), scene, rate_hz, rate_hz).track;
 }
 
-// A clone released at x0 loses the spring's k x0^2 / 2 to the damper, and the hand does nothing.
+// A clone released at x0 loses the spring's energy k x0^2 / 2 to the damper, and the hand does no
+// work.
 TEST(EnergyBalance, AReleasedCloneLosesWhatItsSpringHeld) {
   BenchScene scene = along_x(upright_pose({-0.2, 0, 0.1}, 0), 0, 0.5);
   scene.scene.clone_offset.position_m = {0.02, 0, 0};
@@ -34,8 +35,8 @@ TEST(EnergyBalance, AReleasedCloneLosesWhatItsSpringHeld) {
   }
 }
 
-// Without friction, a coupled clone hits a cube of mass M that then goes at its speed u: the hand
-// gives M u^2, the cube has half of that, and the hit took the other half.
+// Without friction, a coupled clone hits a cube of mass M, which then has its speed u: the hand
+// does the work M u^2, half of which the cube has and half of which the impact dissipates.
 TEST(EnergyBalance, AHitTakesHalfOfWhatTheHandGives) {
   constexpr double mass_kg = 0.2, u_m_s = 0.2, moving_j = mass_kg * u_m_s * u_m_s / 2;
   BenchScene scene = along_x(upright_pose({-0.0825, 0, 0.0215}, 0), 0.06, 0.06 / u_m_s);
@@ -51,7 +52,7 @@ TEST(EnergyBalance, AHitTakesHalfOfWhatTheHandGives) {
   EXPECT_EQ(balance->rubbed_j, 0);
 }
 
-// Drawn steadily by its spring, the cube rubs away all that the hand does.
+// In steady sliding, friction dissipates all work of the hand.
 TEST(EnergyBalance, ASteadyPushIsAllFriction) {
   constexpr int rate_hz = 240, steady_from_s = 3;
   BenchScene scene = along_x(upright_pose({-0.0825, 0, 0.0215}, 0), 0.4, 4);

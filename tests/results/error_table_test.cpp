@@ -1,6 +1,6 @@
-// What `auto` picks from is what the bench measured, and holds for other scenes than those.
-// HEFT_WRITE_ERROR_TABLE=1 in the environment writes the table anew, after a new `heft bench
-// physics`. HEFT_FRESH_SCENES=100 runs so many scenes of each setting, HEFT_SEED draws others.
+// The error table of `auto` equals the study's measurements, and holds for other scenes.
+// HEFT_WRITE_ERROR_TABLE=1 in the environment writes the table, after a new `heft bench physics`.
+// HEFT_FRESH_SCENES=100 runs this number of scenes of each setting, HEFT_SEED sets their seed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -97,8 +97,9 @@ struct Kept {
   int n = 0, n_within = 0, n_tolerated = 0;
 };
 
-// The scenes of the table have another seed. Its errors are quantiles of a sample, so that fewer
-// others are within them. Fails where a share is below the stated one by three standard deviations.
+// The table's scenes have another seed. Its errors are quantiles of a sample, so that a smaller
+// share of other scenes is within them. Fails where a share is below the stated one by three
+// standard deviations.
 TEST(AutoPromise, IsKeptInScenesOfAnotherSeed) {
   const std::uint64_t seed = from_environment("HEFT_SEED", 7);
   const auto n_each = static_cast<int>(from_environment("HEFT_FRESH_SCENES", 1));

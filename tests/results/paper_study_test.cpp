@@ -1,4 +1,4 @@
-// Scores of rival models against known distributions; the quick study makes its files.
+// Scores of rival models against known distributions, and the files of the quick study.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -88,8 +88,8 @@ double yaw_deg(const Pose& pose) {
   return std::atan2(x.y(), x.x()) * 180 / M_PI;
 }
 
-// Contacts that give: nothing is left open about how a cube turns, here by 80, 12 and 54
-// degrees. The last has a clone that turns with the cube.
+// Compliant contacts determine how a cube turns, here by 80, 12 and 54 degrees. In the last scene
+// the clone turns with the cube.
 TEST(Reference, TwoEnginesAgreeHowACubeTurns) {
   for (const char* name : {"offcenter_push", "corner_push", "offcenter_push_kappa0.015"}) {
     const BenchScene scene = bench_scene(name);

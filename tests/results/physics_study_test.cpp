@@ -1,4 +1,4 @@
-// The physics study, its quick part: every file is there, and says what the charts are to show.
+// The quick part of the physics study: its files exist, and their figures support its statements.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

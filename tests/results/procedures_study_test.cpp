@@ -1,4 +1,5 @@
-// The people of the study of procedures are what they are called; its quick run makes its files.
+// The simulated people of the procedures study have the stated properties, and its quick run writes
+// its files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

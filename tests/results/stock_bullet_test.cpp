@@ -1,4 +1,4 @@
-// Other people's set-ups: that they run at all, and that they fail where the charts say they do.
+// Published uses of Bullet: they run, and fail where the charts say so.
 #include <gtest/gtest.h>
 
 #include "base/Error.h"

@@ -1,5 +1,5 @@
-// The quick study of tracking makes all of its files with their columns; the comparisons and the
-// yardsticks are what they say they are.
+// The quick study of tracking writes its files with their columns; compared trackers, motions and
+// filters are as they are described.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -56,7 +56,7 @@ TEST(EffectorStudy, QuickRunMakesEveryFile) {
   EXPECT_NE(study.text("README.md").find("quick run"), std::string::npos);
 }
 
-// By geometry alone, over the grips and from the places that studies film.
+// By geometry alone, over the grips and camera positions of studies.
 double share_with_two_tags(EffectorBody body) {
   EffectorPrint print;
   print.body = body;
@@ -108,7 +108,7 @@ Image board_picture() {
   return camera.picture([](double) { return std::nullopt; }, 0, 0);
 }
 
-// Every comparison finds every tag where the camera was told to put it, corner by corner.
+// Every compared tracker finds every corner where the camera rendered it.
 TEST(ComparisonTrackers, SeeTagsWhereTheyAre) {
   const Apparatus apparatus = without_effector_tags();
   const Image picture = board_picture();
@@ -156,7 +156,7 @@ TEST(SummaryOf, CountsWhatWasNotFound) {
   EXPECT_FALSE(summary.board_mm.p95);
 }
 
-// A swipe covers the way that its speeds add up to, and is 0.5 m/s fast in the middle.
+// A swipe's length is the integral of its speed, which is 0.5 m/s in the middle.
 TEST(Take, SwipeIsAsFastAsItSays) {
   const Take swipe = take(Motion::swipe, 1, 0);
   EXPECT_NEAR(swipe.speed_m_s(0.22), 0.5, 1e-6);
@@ -168,7 +168,7 @@ TEST(Take, SwipeIsAsFastAsItSays) {
     EXPECT_LT((swipe.at(t_s + 1e-3).position_m - swipe.at(t_s).position_m).norm(), 0.501e-3);
 }
 
-// Measured without error: what a filter makes of it is its own doing.
+// Without measurement error, so that all errors are the filter's.
 MethodFilm perfect_film(Motion motion, int n_pictures) {
   MethodFilm film;
   film.takes.push_back(take(motion, 1, 0));

@@ -1,4 +1,4 @@
-// Somebody at a made-up screen, and somebody at a made-up console.
+// A simulated participant at a simulated screen, and a simulated experimenter.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@
 
 namespace heft::testing {
 
-// What somebody does about each screen they are shown; presented screens are kept.
+// Answers each presented screen by a function; keeps the presented screens.
 class MadeUpScreen final : public ArView {
  public:
   using Person = std::function<std::vector<Touch>(const ViewFrame&, const ScreenState&)>;
@@ -55,7 +55,7 @@ inline Touch touch(ActionKind kind, std::optional<int> slot = {}, std::optional<
   return made;
 }
 
-// Turns pages, labels the cubes from left to right, sees no differences.
+// Turns pages, labels the cubes from left to right, answers "no difference".
 inline std::vector<Touch> patient(const ViewFrame& picture, const ScreenState& screen) {
   if (screen.screen != Screen::trial)
     return screen.wait_s > 0 ? std::vector<Touch>{} : std::vector{touch(TouchKind::next)};

@@ -1,4 +1,4 @@
-// Small protocols made in code, for tests of the session room.
+// Small protocols for tests of sessions.
 #pragma once
 
 #include "engine/Plans.h"
@@ -15,7 +15,7 @@ inline Protocol small_protocol() {
   return protocol;
 }
 
-/// Two sorting trials, at a display fast enough for a test.
+/// Two sorting trials, at a display rate that is fast enough for a test.
 inline Protocol quick_protocol() {
   Protocol protocol = small_protocol();
   protocol.display_rate_hz = 200;

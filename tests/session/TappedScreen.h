@@ -1,5 +1,5 @@
-// The participant's pages under made-up fingers, on a made-up clock: everything between a touch's
-// place and the session is the program's own, but for the window system and the drawing.
+// The participant's pages under simulated fingers, with simulated time: the program's own code from
+// the position of a touch to the session, without window system and drawing.
 #pragma once
 
 #include <algorithm>
@@ -11,13 +11,13 @@
 
 namespace heft::testing {
 
-/// Seconds, of nobody's clock.
+/// The simulated time, seconds.
 inline double made_up_s = 0;
 inline double made_up_monotonic() {
   return made_up_s;
 }
 
-/// A finger that goes down and up on one place.
+/// A finger that goes down and up at one place.
 struct Tap {
   double down_s = 0, up_s = 0;
   float x = 0, y = 0;
@@ -61,8 +61,8 @@ class TappedScreen final : public ArView {
   const ScreenState& screen() const { return screen_; }
 
   const Measures measures;
-  /// What each tap came to: how many touches for the session, and whether it turned a part or chose
-  /// a cube.
+  /// The effect of each tap: number of touches for the session, and whether it turned a part or
+  /// chose a cube.
   struct Done {
     Tap tap;
     std::string control;
@@ -77,7 +77,7 @@ class TappedScreen final : public ArView {
     touched_.presented(made_up_s);
   }
 
-  // What is on the page, but for what is pressed.
+  // The contents of the page, without what is pressed.
   static std::string look(const Page& page) {
     std::string all;
     for (const TextLine& line : page.lines) all += line.text + '\n';
@@ -86,7 +86,7 @@ class TappedScreen final : public ArView {
     return all;
   }
 
-  // The next thing that the finger does before a time. @return false: nothing
+  // Carries out the finger's next movement before a time. @return false: there is none
   bool move_finger(double end_s) {
     if (!tap_) tap_ = next_tap_(*this);
     if (!tap_ || (is_down_ ? tap_->up_s : tap_->down_s) > end_s) return false;

@@ -1,4 +1,4 @@
-// A person's whole session on pages under made-up fingers, with the rules of onset in force.
+// A person's whole session on pages under simulated fingers, with the rules of onset.
 #pragma once
 
 #include <array>
@@ -13,11 +13,11 @@ namespace heft::testing {
 
 inline constexpr double gap_s = 0.6, min_answer_s = 0.5;
 
-/// Of the tests that tap in several windows.
+/// Windows of the tests that tap in several ones.
 inline const std::array tapped_windows{Measures{1024, 600}, Measures{1280, 800, 1.3f},
                                        Measures{1920, 1080, 0.8f}, Measures{800, 480}};
 
-/// A tap at a moment soon, in the middle of a control or part of the way along it.
+/// A tap soon, in the middle of a control or at a fraction of its width.
 inline Tap tap_on(const Control& control, RandomStream& random, double along = 0.5) {
   const double down_s = made_up_s + 0.2 + 0.4 * random.uniform();
   const Rect& area = control.area;
@@ -25,13 +25,13 @@ inline Tap tap_on(const Control& control, RandomStream& random, double along = 0
           area.y + area.height / 2};
 }
 
-/// None on a control that is not there or takes no tap.
+/// None if there is no control or it takes no tap.
 inline std::optional<Tap> tap_on(const Control* control, RandomStream& random, double along = 0.5) {
   return control && control->enabled ? std::optional(tap_on(*control, random, along))
                                      : std::nullopt;
 }
 
-/// Leads on from a page that is no trial.
+/// The control that continues from a page without a trial.
 inline const Control* onwards(const TappedScreen& screen) {
   return screen.control(screen.control("more") ? "more" : "next");
 }

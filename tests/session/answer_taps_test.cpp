@@ -1,5 +1,5 @@
-// Judgments and same-different answers of people who know what they want to answer: what they
-// tapped is what is logged, in both shipped languages, several sizes and for either hand.
+// Judgments and same-different answers: the intended answer is tapped and logged, in both shipped
+// languages, in several window sizes, right-handed and left-handed.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -90,7 +90,7 @@ TEST_F(AutoSimulator, StaysAsTheLogSaysWhenTheSessionContinuesAndTheTableSaysAno
   earlier.simulator_reason = "was the best then";
   ASSERT_EQ(run_until(2, resolve({}, earlier, protocol, 3)).end, RunEnd::stopped);
   const LoggedSession session = session_to_resume(db, std::nullopt);
-  // What it was started with may be said again.
+  // Repeating the option of the start is allowed.
   const ResolvedConfig config = resumed(session, "auto");
   EXPECT_EQ(config->protocol->simulator.name, "bullet-lx");
   EXPECT_EQ(config->protocol->simulator.rate_hz, 120);

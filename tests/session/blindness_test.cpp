@@ -1,4 +1,4 @@
-// What a simulated participant can and can't know, with real rigid-body physics.
+// What a simulated participant can and cannot perceive, with rigid-body physics.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 using testing::small_protocol;
 
-// What reaches the eye may be changed on the way.
+// Changes a displayed frame before the participant sees it.
 using Change = std::function<void(DisplayedFrame&)>;
 
 struct Sorted {
@@ -100,7 +100,7 @@ TEST(Blindness, HidingTheCloneDropsC2SortingToChance) {
     n_answered_hidden += hidden != "dont_know";
   }
   EXPECT_GT(n_right, n * 3 / 4);
-  // Of answered trials one in six by chance: within four standard errors.
+  // One in six answered trials is correct by chance: within four standard errors.
   ASSERT_GT(n_answered_hidden, 20);
   const double chance = 1.0 / 6;
   EXPECT_NEAR(n_right_hidden, n_answered_hidden * chance,

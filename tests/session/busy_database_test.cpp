@@ -1,6 +1,6 @@
 // Another process locks the database during answers, vetoes and pauses of a person's session: what
 // is logged folds again, nothing is lost, and the screen acknowledges only what is on disk. The
-// seed of what failed is printed.
+// seed of a failure is printed.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using testing::made_up_s;
 using testing::MadeUpConsole;
 using testing::touch;
 
-// Keeps what it is given while the database is locked, as SessionLog does.
+// Keeps events while the database is locked, as SessionLog does.
 class BusySink final : public EventSink {
  public:
   BusySink(std::shared_ptr<const Protocol> protocol, RecordedSession& disk)
@@ -36,7 +36,7 @@ class BusySink final : public EventSink {
   void append(const Event& event, const Changes& changes, Durability durability) override {
     if (const auto* contact = event.as<CubeTouch>()) is_touching = !contact->ended_after_s;
     waiting_.push_back({event, changes});
-    // What is buffered becomes due, too.
+    // Buffered events become due, too.
     if (durability == Durability::acknowledged || locks_buffered) write(event);
   }
   void add_frame(const FrameRow&) override {}
@@ -46,7 +46,7 @@ class BusySink final : public EventSink {
   }
   void flush() override { write({0, Note{}}); }
 
-  /// What a killed process loses.
+  /// Discards what a killed process loses.
   void forget_waiting() {
     waiting_.clear();
     waiting_info_.clear();
@@ -76,7 +76,7 @@ class BusySink final : public EventSink {
   std::map<std::string, std::string> waiting_info_;
 };
 
-// A screen on the made-up clock. What stands on it must be on disk.
+// A screen with simulated time. What it displays must be on disk.
 class WatchedScreen final : public ArView {
  public:
   using Person = std::function<std::vector<Touch>(const ViewFrame&, const ScreenState&)>;
@@ -149,7 +149,7 @@ struct BusySession {
     return end;
   }
 
-  // Of what is on disk, as a new process resumes it. @return false: it has ended
+  // Resumes what is on disk, as a new process does. @return false: the session has ended
   bool resume() {
     Engine resumed(protocol, 7);
     for (const RecordedEvent& recorded : recorded_events()) resumed.apply(recorded.event);
@@ -171,7 +171,7 @@ struct BusySession {
     return events;
   }
 
-  // Each event once more, on its own: what it changes must be what was written with it.
+  // Folds each event again: its changes must equal those that were written with it.
   void expect_to_fold_again() const {
     Engine again(protocol, 7);
     for (const auto& [event, written] : recorded_events()) {
@@ -215,8 +215,8 @@ bool is_about_the_lock(const ConsoleStatus& status) {
   return status.trouble.find("locked") != std::string::npos;
 }
 
-// Locks the database from the first contact that an answer ends, or else from the answer, until it
-// was waited for a while.
+// Locks the database for a while, from the first contact that an answer ends, or else from the
+// answer.
 struct LockDuringAnAnswer {
   LockDuringAnAnswer(BusySession& session, bool from_contact) {
     session.sink.locks_buffered = true;
@@ -328,8 +328,8 @@ TEST(LockedDatabase, NeverReportsAsDoneWhatIsNotSaved) {
 
 struct Killed {};
 
-// Someone who answers at random times, an experimenter who intervenes at random, more often while
-// the database is locked, and a process that may be killed then.
+// A participant who answers at random times, an experimenter who intervenes at random times, more
+// often while the database is locked, and a process that may be killed meanwhile.
 class RandomMoments {
  public:
   RandomMoments(BusySession& session, std::uint64_t seed)

@@ -1,5 +1,5 @@
-// What the participant is shown before the first trial: a filmed hand that holds the effector as
-// they should, pushes the cubes, and looks like a trial.
+// The demonstration before the first trial: a filmed hand that holds the effector as participants
+// should, pushes the cubes, and looks as in a trial.
 #include "session/Demonstration.h"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ double degrees_from(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   return a.angularDistance(b) * 180 / M_PI;
 }
 
-// The pictures speak for themselves: a tracker finds in them what is drawn over them.
+// A tracker must find the effector in the pictures where its clone is drawn.
 TEST(Demonstration, ShowsAFilmedEffectorUnderItsCloneWithTwoFacesToTheCamera) {
   const Protocol protocol;
   Demonstration demonstration(protocol, shipped_apparatus(), 7);

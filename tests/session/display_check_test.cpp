@@ -1,4 +1,4 @@
-// The check of the participant's display before a session, and what it says of a slow one.
+// The check of the participant's display before a session, and its verdicts on a slow one.
 #include <gmock/gmock.h>
 
 #include "session/DisplayCheck.h"
@@ -15,7 +15,7 @@ using testing::made_up_s;
 using testing::quick_protocol;
 using testing::short_comparison;
 
-/// A display on which each frame takes a while; the made-up clock runs on meanwhile.
+/// A display on which each frame takes simulated time.
 class SlowDisplay final : public ArView {
  public:
   explicit SlowDisplay(double frame_s) : frame_s_(frame_s) {}
@@ -109,7 +109,7 @@ TEST(DisplayCheck, ShowsTheAnswersOfTheProtocolsTrials) {
   EXPECT_EQ(view.screens.back().n_slots, 1);
 }
 
-/// So many pictures at 15 Hz, of which every n-th is late by so much.
+/// Pictures at 15 Hz, of which every n-th is late.
 std::vector<PresentedPicture> presented(double period_s, int each, double late_s, int n_dropped) {
   std::vector<PresentedPicture> all;
   for (int i = 0; i < 60; ++i) {

@@ -95,7 +95,7 @@ class FilmedDisplay {
   const std::uint8_t* bytes_ = nullptr;
 };
 
-// A panel that is late, and a camera whose pictures take a while to arrive.
+// A display with a delay, and a camera whose pictures arrive late.
 LiveCamera::Grab filming(const FilmedDisplay& display) {
   struct State {
     std::deque<GrabbedPicture> under_way;

@@ -1,5 +1,5 @@
-// A person's session at a live camera: a made-up device gives rendered pictures, freezes, dies and
-// comes back, on a real grabbing thread and a real clock.
+// A person's session with a live camera: a simulated device delivers rendered pictures, freezes,
+// fails and returns, with a real grabbing thread and a real clock.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -131,8 +131,8 @@ bool can_answer(const ScreenState& screen) {
   return screen.screen == Screen::trial && screen.can_answer;
 }
 
-// Answers as soon as they can, but once, in the first trial, something happens to the camera, and
-// they wait until that is over.
+// A person who answers as soon as possible, but in the first trial causes an incident of the camera
+// and waits until it is over.
 class Incident {
  public:
   using IsOver = std::function<bool(LiveSession&)>;
@@ -166,7 +166,7 @@ std::unique_ptr<LiveSession> session_with(Does what, Incident::IsOver is_over,
   return session;
 }
 
-// Films again once this has happened; that ends the incident.
+// Films again after this event, which ends the incident.
 Incident::IsOver films_again_after(EventKind kind) {
   return [kind](LiveSession& session) {
     if (session.events(kind).empty()) return false;
@@ -234,8 +234,8 @@ TEST(LiveCamera, ThatDoesNotSeeTheEffectorPausesNothing) {
   EXPECT_EQ(session->engine->n_attempts(), 2);
 }
 
-// Nobody asked for pictures while pages were read, or while the session lay still until it was
-// resumed; that is no silence of the camera's.
+// No pictures are requested while pages are read or the session is left; this must not count as a
+// silent camera.
 TEST(LiveCamera, IsNotLostBecauseNoOneAskedIt) {
   LiveSession session(5, patient);
   session.clock.restart(1000);
@@ -252,7 +252,7 @@ std::vector<std::string> reasons_of_pauses(const LiveSession& session) {
 
 constexpr double out_of_view_s = 0.7;  // for longer the board is lost
 
-// The board was out of view while a page was read, and for a moment more.
+// The board is out of view while a page is read, and shortly afterwards.
 TEST(LiveCamera, CountsALostBoardFromTheTrialsStartOn) {
   Protocol protocol = quick_protocol();
   const Sorting::Block one{"sorting", {15, 200, 800}, {{"C2", 1}}, 0};
@@ -280,8 +280,7 @@ TEST(LiveCamera, CountsALostBoardFromTheTrialsStartOn) {
   EXPECT_EQ(testing::frames_of(session.sink)[n_frames].n_dropped, 0);
 }
 
-// The same while the experimenter held the trial; and what the camera gave meanwhile was not
-// missed.
+// The same while the experimenter holds the trial; pictures of that time do not count as dropped.
 TEST(LiveCamera, CountsALostBoardAndDropsFromTheEndOfAPauseOn) {
   double held_since_s = 0;
   std::size_t n_frames = 0;
@@ -312,8 +311,7 @@ TEST(LiveCamera, CountsALostBoardAndDropsFromTheEndOfAPauseOn) {
   EXPECT_EQ(testing::frames_of(session.sink)[n_frames].n_dropped, 0);
 }
 
-// Freezes in each attempt until it is void, three times; then somebody has looked, and it freezes
-// once more, for a moment.
+// The camera freezes until three attempts are void; after a check it freezes once more, briefly.
 TEST(LiveCamera, ThatVoidedATrialThreeTimesMayHiccupAfterAResume) {
   LiveSession* running = nullptr;
   bool resumed = false, hiccuped = false;
@@ -344,7 +342,7 @@ TEST(LiveCamera, ThatVoidedATrialThreeTimesMayHiccupAfterAResume) {
   EXPECT_EQ(session.engine->n_completed(), 2);
 }
 
-// As --tracker camera:N with a model: its mind sees the frames, its hand is not filmed.
+// As --tracker camera:N with a model, which sees the frames, but whose hand is not filmed.
 TEST(LiveCamera, FilmsWhileAModelAnswers) {
   LiveSession session(5, patient);
   session.hand = responder_named("coin").make({});
@@ -371,7 +369,7 @@ TEST(LiveCamera, IsCheckedBeforeTheSessionAndThatIsLogged) {
     EXPECT_THAT(checks, Contains(what));
 }
 
-// A file is looked at in full before the session, which then has all of its pictures.
+// A file is checked completely before the session, which then has all of its pictures.
 TEST(FileOfPictures, IsCheckedBeforeTheSessionToo) {
   const test::TemporaryFolder folder;
   for (std::size_t i = 0; i < n_pictures; ++i)
@@ -422,7 +420,7 @@ TEST(PicturesOfAModelsHand, CountThoseThatCameTooLateToBeMade) {
   EXPECT_EQ(pictures.next()->n_dropped, 0);
 }
 
-// Names of verdicts reach the log as they are called here.
+// Names of verdicts are the same in the log.
 TEST(Check, IsLoggedByItsVerdictsName) {
   EXPECT_EQ(row_of({0, CheckResult{CheckVerdict::warning, "light", "too dark"}}).detail,
             R"({"name":"light","verdict":"warning","finding":"too dark"})");

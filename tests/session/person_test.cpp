@@ -1,5 +1,5 @@
-// A person's session on a wall clock: a made-up screen is touched, an experimenter sits at a
-// made-up console.
+// A person's session on a wall clock, with a simulated screen that is touched and a simulated
+// console of the experimenter.
 #include <gmock/gmock.h>
 
 #include "SourceFolder.h"
@@ -34,7 +34,7 @@ std::unique_ptr<Responder> some_hand() {
   return responder_named("simulated").make({});
 }
 
-// Of a camera in whose view a spare net lies, or not.
+// Pictures of a camera with or without a spare print of the effector in view.
 struct FilmedHandPictures : HandPictures {
   using HandPictures::HandPictures;
   std::optional<Picture> next() override {
@@ -169,7 +169,7 @@ TEST(Person, ATouchThatCanNotBeTakenIsKeptAsRefusedAndEndsNothing) {
   EXPECT_THAT(refused.as<ActionRefused>()->reason, HasSubstr("label"));
 }
 
-// As the second tap of two would be that comes through while the page turns.
+// Such as the second tap of a double tap while the page turns.
 TEST(Person, ATouchOnThePageBeforeMeansNothingOnThisOne) {
   PageId before;
   int n_late = 0;
@@ -261,7 +261,7 @@ TEST(Person, PicturesWithASecondPrintOfATagAreCounted) {
   }
 }
 
-// Commands come when a trial's screen is up, one after the other.
+// Gives its commands in order, one for each screen of a trial.
 struct ScriptedConsole : MadeUpConsole {
   explicit ScriptedConsole(std::deque<ConsoleCommand> made) : to_come(std::move(made)) {
     on_show = [this](const ConsoleStatus& status) {
@@ -287,7 +287,7 @@ TEST(Experimenter, HoldsTheSessionAndLetsItContinue) {
   EXPECT_THAT(session.events(event_kind<TrialVoided>), IsEmpty());
 }
 
-// Every status is held against what stood on the screen when it was shown.
+// Compares every status with the screen displayed at that time.
 TEST(Experimenter, SeesWhichPageItIsAndThatOnlyTrialsAreTracked) {
   Session session(every_page_protocol());
   MadeUpConsole console;
@@ -317,7 +317,7 @@ TEST(Experimenter, SeesNothingTrackedWhileTheSessionIsHeld) {
 
 class FailedCheck : public ::testing::Test {
  protected:
-  // Nobody's hand, before a camera that is out of order.
+  // A camera that is out of order, without a hand.
   class OutOfOrder final : public PictureSource {
    public:
     explicit OutOfOrder(PictureSource& pictures, int n_failures = 1000)

@@ -1,5 +1,4 @@
-// Questionnaires in whole sessions: what people answered is what the log has, and nobody is asked
-// twice.
+// Questionnaires in whole sessions: the answers given are logged, and no question is asked twice.
 #include <gmock/gmock.h>
 
 #include "SourceFolder.h"
@@ -64,7 +63,7 @@ class Asked {
   std::map<std::string, std::string> meant;
 
  private:
-  // Of a keypad a digit: one is a number.
+  // Of a keypad, a digit is an answer: each is a number.
   static bool is_answer(const std::string& name) {
     const auto key = name.find("_key_");
     if (key != std::string::npos) return name.back() >= '1' && name.back() <= '9';
@@ -137,7 +136,7 @@ TEST(Questionnaires, WhatPeopleAnswerIsLoggedByBlockWithItsTime) {
   }
 }
 
-// What is asked of the effort of a block is asked before people have rested from it.
+// Questions about the effort of a block are asked before the break.
 TEST(Questionnaires, ComeBeforeTheBreakThatFollowsTheirBlock) {
   Protocol protocol = asking();
   protocol.blocks.insert(protocol.blocks.begin() + 1, BreakBlock{"rest", 0.1});
@@ -164,7 +163,7 @@ Protocol asking_at_the_end() {
   return protocol;
 }
 
-// The pages of a session whose last answer is taken back while one of them is shown.
+// The pages of a session whose last answer is vetoed while one of them is shown.
 std::vector<std::string> pages_with_veto_on(Screen vetoed_on) {
   Asked person(7);
   std::optional<TappedSession> session;

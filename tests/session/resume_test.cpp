@@ -1,4 +1,4 @@
-// Sessions that go on with something else in force, and logs that nobody may go on with.
+// Sessions that are resumed with a changed configuration, and logs that may not be resumed.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
@@ -42,7 +42,7 @@ class Resumed : public ::testing::Test {
   }
   void start() { ASSERT_EQ(start_session(request, until(2)).end, RunEnd::stopped); }
 
-  // A person at a made-up window, who leaves after two trials.
+  // Starts a person's session at a simulated window; the person leaves after two trials.
   void start_as_a_person(const std::string& asked = "") {
     SessionOptions person;
     person.tracker = Plug{"hand"};
@@ -80,7 +80,7 @@ class Resumed : public ::testing::Test {
     return resume_session(session, resolved(session, again), until(n_trials));
   }
 
-  // The responders that trials were answered by, in order, each once in a row.
+  // The responders that answered the trials, in order, without repetitions in a row.
   std::vector<std::string> responders() const {
     const LogReader reader(request.db);
     const LoggedSession session = load_session(reader, request.db, 1);
@@ -116,7 +116,7 @@ class Resumed : public ::testing::Test {
   std::atomic<bool> stop = false;
 };
 
-// As it was read below another text file when the session began.
+// The questionnaire's text as it was read when the session began.
 constexpr const char* questionnaire = R"([questionnaire.effort]
 title = "Effort"
 [[questionnaire.effort.question]]
@@ -183,7 +183,7 @@ TEST_F(Resumed, WhatIsGivenAgainUnchangedIsNotLoggedAgain) {
   expect_verified();
 }
 
-// A crash right after the start must leave a session that says what it is run with.
+// After a crash right after the start, the log must have the configuration.
 TEST_F(Resumed, TheFirstSetupIsInTheFileAsSoonAsTheSession) {
   Engine engine(request.config->protocol, seed);
   const Event told{0, request.config->config};

@@ -1,5 +1,5 @@
-// The runner with made-up pictures and a made-up participant: voids, an effector out of view, a
-// dead camera, cubes that leave, the clear start.
+// The runner with simulated pictures and a simulated participant: void trials, an effector out of
+// view, a lost camera, cubes that leave the working area, a clear start.
 #include "session/Runner.h"
 
 #include <gmock/gmock.h>
@@ -56,7 +56,7 @@ class Resting : public Responder {
   std::optional<double> seen_s_;
 };
 
-// Pictures that a function of attempt and time changes.
+// Pictures that a function of attempt and time may change.
 class MadeUpPictures final : public PictureSource {
  public:
   using Change = std::function<void(int attempt, double t_s, Picture&)>;

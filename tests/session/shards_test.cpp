@@ -1,5 +1,5 @@
-// Simulations in shards, stopped and requeued at random, and merged: every row of the log of
-// one run. HEFT_SEED repeats what failed.
+// Simulations in shards, stopped and continued at random, and merged: the log has every row of that
+// of one run. HEFT_SEED repeats a failure.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>
 
@@ -169,7 +169,7 @@ TEST_F(ShardedSimulation, WithoutAParticipantIsRefused) {
   EXPECT_THAT(
       refusal({"1.db", "cut.db", "3.db"}),
       AllOf(HasSubstr("sim-0005 of 5 participants is missing."), HasSubstr("Run shard 2/3 again")));
-  // Nothing but the number of participants shows that the last shards are missing.
+  // Only the number of participants shows that the last shards are missing.
   run_shard("first.db", {1, 2}, 2);
   EXPECT_THAT(refusal({"first.db"}), HasSubstr("sim-0002 of 2 participants is missing"));
 }

@@ -1,5 +1,5 @@
-// Double taps and wild taps: a person's whole sessions, with the rules of onset in force, under
-// fingers that do what fingers do. The seed of what failed is printed.
+// Double taps and random taps in a person's whole sessions, with the rules of onset. The seed of a
+// failure is printed.
 #include <gmock/gmock.h>
 
 #include <set>
@@ -69,7 +69,7 @@ class DoubleTapper {
   }
 
  private:
-  // Any control that is enabled; mostly one that leads on, or nobody would ever get anywhere.
+  // Any enabled control; mostly one that continues, or the session would hardly progress.
   const Control* choose(const TappedScreen& screen) {
     std::vector<const Control*> live;
     for (const Control& control : screen.page().controls)
@@ -114,7 +114,7 @@ TEST(Taps, ADoubleTapOnAnyButtonOfAnyPageDoesOneThing) {
     EXPECT_TRUE(tapped.contains(name)) << name << " was never tapped";
 }
 
-// Fingers anywhere, any time, for any time; and where buttons are as often as not.
+// Touches at random places and times and of random duration, half of them on buttons.
 class WildTapper {
  public:
   WildTapper(std::uint64_t seed, int& n_taps) : random_(seed, "wild taps"), n_taps_(&n_taps) {}

@@ -1,5 +1,5 @@
-// A person's whole session with fingers on the real window, on SDL's offscreen display: nothing but
-// pushed finger events gets from the person to the session.
+// A person's whole session with fingers on the real window, on SDL's offscreen display: the session
+// gets only pushed finger events.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -23,8 +23,8 @@ using testing::shared;
 using ::testing::SizeIs;
 using testing::whole_protocol;
 
-// Sees the window's controls, and taps with a finger what a person would. One tap at a time, and
-// again if it had no effect: a page's first moments take none.
+// Reads the window's controls and taps them as a person would. One tap at a time, and again if it
+// had no effect, because a page ignores taps at first.
 class FingersOnTheWindow final : public ArView {
  public:
   explicit FingersOnTheWindow(const ViewSetup& setup) : window_(setup) {}
@@ -56,7 +56,7 @@ class FingersOnTheWindow final : public ArView {
     return control(name) ? std::optional(name) : std::nullopt;
   }
 
-  // Cubes are tapped in the picture, where people would.
+  // Taps cubes in the picture.
   void tap_on(const std::string& name) const {
     if (!name.starts_with("cube_")) return tap(window_, name);
     const auto [x, y] = place_in_picture(window_, name);
@@ -91,7 +91,7 @@ class FingersOnTheWindow final : public ArView {
     return next_in_sorting();
   }
 
-  // From left to right, with a mistake to begin with.
+  // Labels from left to right, after one mistake.
   std::optional<std::string> next_in_sorting() const {
     const std::array wanted{screen_.n_choices == 0 ? "heaviest" : "lightest", "intermediate",
                             "heaviest"};
@@ -142,7 +142,7 @@ class TouchedWindow : public ::testing::Test {
     EXPECT_EQ(info.at("basis"), "guessed");
   }
 
-  // What fingers gave is what is in the log, one for one.
+  // The log has exactly the answers that were tapped.
   void expect_every_answer() const {
     std::vector<Action> answers;
     for (const Touch& touch : fingers->given)

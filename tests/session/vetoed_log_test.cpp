@@ -1,4 +1,4 @@
-// A log that holds answers which were taken back: written, read back, verified.
+// A log with vetoed answers: written, read, verified.
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -15,7 +15,7 @@
 namespace heft {
 namespace {
 
-// A session without a picture: only what the engine is told.
+// A session without pictures: only the events given to the engine.
 class ToldSession {
  public:
   explicit ToldSession(const Protocol& made)

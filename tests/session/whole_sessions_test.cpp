@@ -1,6 +1,6 @@
-// People who know what they want to answer, read the buttons in their language and tap: what they
-// meant is what the log has, in every language, size and hand. HEFT_SESSIONS sets how many; the
-// seed of what failed is printed.
+// Simulated people who read the buttons in their language and tap their intended answers, which the
+// log must have, in every language and window size, right-handed and left-handed. HEFT_SESSIONS
+// sets their number; the seed of a failure is printed.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -19,14 +19,14 @@ using testing::Tap;
 using testing::TappedScreen;
 using testing::TappedSession;
 
-/// What somebody means to answer in a trial.
+/// The intended answer to a trial.
 struct Meant {
   std::vector<Label> labels;      ///< sorting: from left to right
   std::optional<int> slot;        ///< a choice; none: no difference
   std::optional<int> first_slot;  ///< introduction: tried before the others
 };
 
-/// Taps buttons by the words on them, anywhere within them. Whoever sees no change taps again.
+/// Taps buttons by their words, anywhere within them, again if nothing changes.
 class Person {
  public:
   Person(std::uint64_t seed, const ScreenTexts& texts) : random_(seed, "person"), texts_(texts) {}
@@ -73,7 +73,7 @@ class Person {
     return nullptr;
   }
 
-  // The question is known by its words, too; some are skipped.
+  // Recognizes the question by its words; skips some questions.
   const Control* wanted_in_form(const TappedScreen& screen) {
     const std::string page(name_of(screen.screen().screen));
     for (const auto& [key, question] : texts_.pages.at(page)) {
@@ -134,7 +134,7 @@ class Person {
     return saying(screen, texts_.at("slots", slot == 1 ? "left" : slot == n ? "right" : "middle"));
   }
 
-  // One after the other; what is wrong is corrected.
+  // Gives one label after the other, and corrects wrong ones.
   const Control* next_of_sorting(const TappedScreen& screen, const Meant& meant) const {
     const auto given = labels_on(screen.screen());
     for (int slot = 1; slot <= 3; ++slot) {
@@ -206,7 +206,7 @@ TEST(WholeSessions, WhatPeopleMeantIsWhatIsLoggedInEveryLanguageSizeAndHand) {
   const std::uint64_t n_sessions = asked ? std::stoul(asked) : 18;
   std::size_t n_trials = 0, n_entries = 0;
   for (std::uint64_t i = 0; i < n_sessions; ++i) {
-    // Of eighteen neighbors each language with each size and hand.
+    // Eighteen successive sessions have each language with each size and hand.
     const char* language = languages[i % 3];
     const Measures& window = windows[(i + i / 6) % 3];
     const bool left_handed = i % 2 == 1;

@@ -1,5 +1,5 @@
-// Every task of the list on every path: simulated, interrupted and resumed, vetoed, replayed,
-// judged, exported. Each needs a shipped protocol. Screens are tested in tests/view.
+// Every task of the list: simulated, interrupted and resumed, vetoed, replayed, judged, exported.
+// Each needs a shipped protocol. Screens are tested in tests/view.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

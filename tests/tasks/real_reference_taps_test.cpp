@@ -1,5 +1,5 @@
-// Fifty comparisons with a real object at the window: lifted, then answered; what was tapped is
-// what is logged, in both shipped languages.
+// Fifty comparisons with a real object at the window: lifted, then answered; the tapped answers are
+// logged, in both shipped languages.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@ using testing::Tap;
 using testing::TappedScreen;
 using testing::TappedSession;
 
-/// Reports to have lifted the object, then taps an answer, which is no button before.
+/// Reports to have lifted the object, then taps an answer, whose button was not available before.
 class Lifter {
  public:
   explicit Lifter(std::uint64_t seed) : random_(seed, "lifter") {}

@@ -38,7 +38,8 @@ Tips tracked(const SyntheticSettings& settings) {
   return tips;
 }
 
-// Their size would be taken for a tone curve, and the effector for millimeters nearer or farther.
+// Otherwise their size would be attributed to the tone curve, and the effector would be millimeters
+// nearer or farther.
 TEST(TagSize, IsLearnedBesideTheToneCurve) {
   for (const double film_curve : {0.0, 1.0})
     for (const double scale : {0.99, 1.01}) {

@@ -1,4 +1,4 @@
-// From pixels to poses, on pictures of the synthetic camera with exact ground truth.
+// Tracking on pictures of the synthetic camera, whose true poses are known.
 #include "tracking/Tracker.h"
 
 #include <gmock/gmock.h>
@@ -114,7 +114,7 @@ TEST(Tracker, KnowsThatAnOverexposedPictureShowsLittle) {
   EXPECT_LT((*seen.board_from_effector * tip_m - pose * tip_m).norm(), 0.004);
 }
 
-// The same grip, rolled: how far each pose is off is luck, how firm it is is not.
+// The same grip, rolled: a pose's error is random, its quality is not.
 TEST(Tracker, KnowsThatOneFaceShowsLessThanTwo) {
   const Apparatus apparatus = default_apparatus(640);
   SyntheticSettings scene;
@@ -135,7 +135,7 @@ TEST(Tracker, KnowsThatOneFaceShowsLessThanTwo) {
   EXPECT_LT(one.quality, two.quality - 0.05);
 }
 
-// Small tags, noise and blur by motion: much is lost, and what is not lost is not far off.
+// Small tags, noise and motion blur: many poses are lost, and the others have small errors.
 TEST(Tracker, WhatIsCentimetersOffIsNoPose) {
   Apparatus apparatus = default_apparatus(640);
   apparatus.effector = box_effector(0.025);
@@ -164,7 +164,7 @@ TEST(Tracker, WhatIsCentimetersOffIsNoPose) {
   EXPECT_GT(n_lost, 15);
 }
 
-// Its worst poses, which the detector's corners have more of, are no poses.
+// Poses with large errors, which the detector's corners cause more often, are discarded.
 TEST(Tracker, IsSeveralTimesBetterThanTheDetectorsCorners) {
   TrackerSettings plain;
   plain.refine_edges = plain.remove_bias = plain.region_of_interest = false;
@@ -211,7 +211,8 @@ TEST_F(TrackerOverTime, MotionIsNoJump) {
   }
 }
 
-// Found by its edges where it should be by now: once it is seen to move, nothing is searched for.
+// The effector is found by its edges at the predicted place: when it moves steadily, nothing is
+// searched.
 TEST_F(TrackerOverTime, WhatMovesAsBeforeIsNotSearchedFor) {
   for (int i = 0; i < 8; ++i) {
     const Pose truth = held_at(0.013 * i, 0.01);
@@ -224,7 +225,7 @@ TEST_F(TrackerOverTime, WhatMovesAsBeforeIsNotSearchedFor) {
   }
 }
 
-// ... and it is read when it does not.
+// ... and it is detected if it is not there.
 TEST_F(TrackerOverTime, WhatStopsAtOnceIsFoundAllTheSame) {
   for (int i = 0; i < 4; ++i) see(held_at(0.017 * i, 0), i / 30.0);
   const auto seen = see(held_at(0.017 * 3, 0), 4 / 30.0);
@@ -233,7 +234,7 @@ TEST_F(TrackerOverTime, WhatStopsAtOnceIsFoundAllTheSame) {
   EXPECT_LT((*seen.board_from_effector * tip_m - held_at(0.017 * 3, 0) * tip_m).norm(), 0.0005);
 }
 
-// Edges alone would take any square for its tag.
+// Edges alone would accept any square as its tag.
 TEST_F(TrackerOverTime, AnotherThingInItsPlaceIsNotTakenForIt) {
   Apparatus other = apparatus;
   for (Tag& tag : other.effector.tags) tag.id += 100;
@@ -335,7 +336,8 @@ TEST(TrackerApparatus, ASingleTagIsEnough) {
   }
 }
 
-// Where the board was, it is found again by its edges, in whatever light it was read at first.
+// The board is found again by its edges at its last place, in any light in which it was detected
+// first.
 TEST(TrackerApparatus, NoiseAndDimLightTakeNoSearchAPicture) {
   Apparatus apparatus = default_apparatus(640);
   apparatus.effector = {};
@@ -386,7 +388,7 @@ TEST(TrackerApparatus, NoiseAndTinyPicturesHoldNothing) {
   }
 }
 
-// AprilTag alone reads the tags of two thirds of these.
+// AprilTag alone reads two thirds of these tags.
 TEST(Tracker, ReadsTagsThatAreOutOfFocus) {
   const Apparatus apparatus = default_apparatus(640);
   SyntheticSettings usual, defocused;

@@ -1,4 +1,4 @@
-// What is said of a picture in which the board was not found.
+// The diagnosis of a picture in which the board was not found.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST(WhyUnseen, NamesWhatThePictureShowsInstead) {
   EXPECT_THAT(why_unseen(gray, board, "board"), HasSubstr("is overexposed"));
   std::ranges::fill(gray.pixels, 128);
   EXPECT_THAT(why_unseen(gray, board, "board"), HasSubstr("shows none of the board's tags"));
-  // Whoever looks for the effector is not told of the board.
+  // A message about the effector must not be about the board.
   const MarkerBody effector = default_apparatus(640).effector;
   EXPECT_THAT(why_unseen(picture, effector, "effector", board),
               HasSubstr("shows none of the effector's tags"));

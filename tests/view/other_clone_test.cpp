@@ -1,4 +1,4 @@
-// A what-if's clone beside the logged one.
+// The clone of a what-if simulation, drawn beside the logged one.
 #include <gmock/gmock.h>
 
 #include "view/Scenes.h"

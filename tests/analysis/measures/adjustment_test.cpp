@@ -1,4 +1,4 @@
-// Adjustments: bias and spread, by hand.
+// Adjustments: bias and spread, computed by hand.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -24,7 +24,8 @@ Attempt& add_adjustment(SessionData& data, double reference_g, double value,
   return attempt;
 }
 
-// To 100 g: 90, 110 and 130 g, and 200 and 50 g; to 200 g: 210 g, and 240 g.
+// Settings for 100 g: 90, 110 and 130 g by one person, 200 and 50 g by the other; for 200 g: 210 g,
+// and 240 g.
 std::vector<SessionData> two_people() {
   SessionData one = session(1, "one"), other = session(2, "other");
   for (const double value : {90, 110, 130}) add_adjustment(one, 100, value);

@@ -1,4 +1,4 @@
-// Judgments: means, geometric means and shares of answers, by hand.
+// Judgments: means, geometric means and shares of answers, computed by hand.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ Attempt& add_judgment(SessionData& data, const std::vector<double>& masses_g, do
   return attempt;
 }
 
-// Of 100 g: 1 and 9, and 4; of 100 and 200 g: 100, and 900.
+// Answers for 100 g: 1 and 9 by one person, 4 by the other; for 100 and 200 g: 100, and 900.
 std::vector<SessionData> two_people(const FormQuestion& asked) {
   SessionData one = session(1, "one"), other = session(2, "other");
   for (SessionData* data : {&one, &other}) data->judgments["pairs"] = {asked};

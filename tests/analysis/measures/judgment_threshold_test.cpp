@@ -1,4 +1,4 @@
-// Thresholds of judgments: which procedures count, and apart by block.
+// Thresholds of judgments, by block: which procedures have one.
 #include <gmock/gmock.h>
 
 #include "analysis/Figures.h"

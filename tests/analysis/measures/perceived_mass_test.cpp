@@ -1,4 +1,4 @@
-// Perceived mass by sorting: which orders count, and what is printed of them.
+// Perceived mass by sorting: which orders are used, and what is printed.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-// How often the intervals of thresholds and criteria hold the truth: see results/coverage.
+// How often the intervals of thresholds and criteria contain the true values: see results/coverage.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -116,8 +116,9 @@ TEST(CoverageOf, ThresholdsOfPeopleWhoDiffer) {
   }
 }
 
-// The model has criteria that stay: thresholds come out up to a fifth too large, which intervals of
-// many people don't hold. Predictive checks flag it: tests/inference/checks.
+// The model's criteria are constant. If they drift, thresholds are up to a fifth too large, and the
+// narrow intervals of many people miss the true value. Predictive checks flag it:
+// tests/inference/checks.
 TEST(CoverageOf, ThresholdsUnderDrift) {
   for (const int n_people : {5, 13, 40})
     for (const double growth : {1.0 / 3, 3.0}) {

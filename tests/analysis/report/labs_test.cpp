@@ -1,4 +1,4 @@
-// Logs of several labs: each one's thresholds, and how they differ.
+// Logs of several labs: the threshold of each lab, and how much the labs differ.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

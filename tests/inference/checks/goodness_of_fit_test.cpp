@@ -1,5 +1,5 @@
-// Goodness of fit: deviances and p values as R finds them, how often right and wrong curves are
-// rejected, and what can't be judged.
+// Goodness of fit: deviances and p values as in R, how often right and wrong curves are rejected,
+// and what cannot be judged.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // Perceived values from rank orders: against R and closed forms, what is not identifiable, and how
-// often intervals hold the truth.
+// often intervals contain the true value.
 #include "inference/rankings/Thurstone.h"
 
 #include <gmock/gmock.h>
@@ -77,7 +77,7 @@ TEST(Thurstone, OfOnePersonIsAsRFindsIt) {
   EXPECT_NEAR(found[2].from_previous.interval->high, 0.8106995960, 1e-5);
 }
 
-// Six people who sort two cubes correctly in so many of five trials, each `times` as often.
+// Six people who sort two cubes correctly in these numbers of five trials, each `times` as often.
 OrdersByPerson pairs(int times) {
   OrdersByPerson people;
   for (const int n_correct : {5, 4, 3, 5, 2, 4}) {
@@ -188,7 +188,7 @@ OrdersByPerson sorted(int n_people, int n_trials, const std::vector<double>& val
   return people;
 }
 
-// The truth is what very many people give.
+// The true value is that of very many people.
 TEST(CoverageOf, PerceivedMasses) {
   const int studies = n_studies(20);
   for (const double spread : {0.0, 0.3, 0.6})

@@ -1,4 +1,4 @@
-// What a person with a hand-made effector in front of a camera produces.
+// Pictures as of a person who holds a hand-made effector before a camera.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -27,7 +27,7 @@ inline MarkerBody handmade(const MarkerBody& nominal, std::uint64_t seed) {
   return made;
 }
 
-/// The effector turned this way and that above the board, its tip or a side towards the camera.
+/// The effector turned in various ways above the board, its tip or a side towards the camera.
 inline std::vector<Image> effector_pictures(const Apparatus& apparatus, int n, std::uint64_t seed) {
   SyntheticSettings settings;
   settings.hand = false;
@@ -46,7 +46,7 @@ inline std::vector<Image> effector_pictures(const Apparatus& apparatus, int n, s
   return pictures;
 }
 
-/// Mean distance of corners once one set of tags is brought onto the other as a whole.
+/// Mean distance of corners after one set of tags was fitted to the other as a whole.
 inline double placement_error_m(const std::vector<Tag>& found, const std::vector<Tag>& truth) {
   const auto n = static_cast<Eigen::Index>(4 * found.size());
   Eigen::Matrix3Xd from(3, n), to(3, n);

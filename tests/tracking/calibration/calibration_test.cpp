@@ -1,4 +1,4 @@
-// Both calibrations against the synthetic camera's truth.
+// Both calibrations against the synthetic camera's true values.
 #include <gtest/gtest.h>
 
 #include "base/Error.h"
@@ -15,8 +15,8 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-// Twenty good views, and one of a print that came out shorter than it is wide, which neither pose
-// nor edge bias explains: it must not spoil the others.
+// Twenty good views, and one of a print with another ratio of length to width, which neither pose
+// nor edge bias explains: it must not affect the result.
 TEST(CameraCalibration, FindsTheCameraAndLeavesOutWhatDoesNotFit) {
   const Apparatus apparatus = default_apparatus(640);
   BoardViews pictures = board_views(apparatus, 20, 1, 2);
@@ -38,11 +38,11 @@ TEST(CameraCalibration, FindsTheCameraAndLeavesOutWhatDoesNotFit) {
   EXPECT_EQ(found.views.back().name, "the odd one");
   EXPECT_FALSE(found.views.back().used);
   EXPECT_NE(summary(found).find("20 views used of 21"), std::string::npos);
-  // What pictures can not tell, and rulers do.
+  // The overall size follows from rulers, not from pictures.
   EXPECT_NE(summary(found).find("ruler_measured_m"), std::string::npos);
 }
 
-// Stretched by 0.2 % and sheared by 0.15 degrees, as printers do that feed paper unevenly.
+// Stretched by 0.2 % and sheared by 0.15 degrees, as by printers that feed paper unevenly.
 TEST(CameraCalibration, NamesAPrintThatIsNotTrueToShape) {
   const Apparatus apparatus = default_apparatus(640);
   Apparatus printed = apparatus;
@@ -96,7 +96,7 @@ TEST(Coverage, NamesTheEmptiestPart) {
   EXPECT_EQ(coverage.drawing().substr(0, 17), " . . # # # # # #\n");
 }
 
-// Views of a wizard: each once, only when held still, and it says which side is missing.
+// Each view is kept once, only if still, and the instruction names the missing side.
 TEST(ViewCollector, KeepsWhatIsNewAndStill) {
   const Apparatus apparatus = default_apparatus(640);
   const BoardViews pictures = board_views(apparatus, 3, 1, 4);
@@ -116,8 +116,8 @@ TEST(ViewCollector, KeepsWhatIsNewAndStill) {
   EXPECT_FALSE(file.offer(pictures.images[0], "the same again"));
 }
 
-// Pictures that are merely alike are no wrong board file: it says how many there were, and what is
-// still to be shown.
+// Similar pictures do not mean a wrong board file: the message has their number and the missing
+// views.
 TEST(ViewCollector, SaysWhatIsMissing) {
   const Apparatus apparatus = default_apparatus(640);
   const BoardViews pictures = board_views(apparatus, 2, 0, 4);
@@ -175,7 +175,7 @@ TEST(EffectorCalibration, FindsWhereTagsReallyAre) {
   EXPECT_LT(found.rms_px, 0.2);
   EXPECT_EQ(joined(doubts(found)), "");
   EXPECT_EQ(found.effector.size_m, nominal.size_m);
-  // Tags keep their printed size, and origin and axes stay the file's as well as can be.
+  // Tags keep their printed size; origin and axes remain the file's as far as possible.
   Eigen::Vector3d shift(0, 0, 0);
   for (std::size_t i = 0; i < nominal.tags.size(); ++i) {
     const auto& c = found.effector.tags[i].corners_m;
@@ -194,7 +194,7 @@ std::string refusal(const Apparatus& made, const std::vector<TagView>& views) {
   return "calibrated";
 }
 
-// A file with a tag where it was only guessed to be would spoil every picture that shows it.
+// A tag at a wrong place in the file would cause errors in every picture that shows it.
 TEST(EffectorCalibration, RefusesATagThatItSawTooLittle) {
   const Apparatus made = default_apparatus(640);
   std::vector<TagView> views = views_of(made, made.effector, 70, 1);

@@ -18,7 +18,7 @@ std::string joined(const std::vector<std::string>& lines) {
 
 enum class Down { bottom, back, left };
 
-// Put down somewhere on the board, a face down.
+// The effector at a random place on the board, on one of its faces.
 Pose put_down(RandomStream& random, const MarkerBody& effector, Down face) {
   const auto within = [&](double half) { return half * (2 * random.uniform() - 1); };
   const Eigen::AngleAxisd yaw(within(M_PI), Eigen::Vector3d::UnitZ());
@@ -35,7 +35,7 @@ Pose put_down(RandomStream& random, const MarkerBody& effector, Down face) {
   return at(half_m.z(), Eigen::Quaterniond::Identity());
 }
 
-// The print came out larger as a whole, as printers do.
+// A print that is larger as a whole, as some printers produce.
 Apparatus larger(Apparatus apparatus, double scale) {
   apparatus.effector.size_m *= scale;
   for (Tag& tag : apparatus.effector.tags)
@@ -77,7 +77,7 @@ OnBoardCalibration found(const Apparatus& made, MarkerBody board, MarkerBody eff
   return calibrate_on_board(board, effector, made.camera, table.views.views());
 }
 
-// It stands there once, in an unknown place.
+// In each repetition it stands at one unknown place.
 TEST(OnBoardCalibration, FindsAPrintThatIsTooLarge) {
   const Apparatus file = default_apparatus(640);
   const Apparatus made = larger(file, 1.01);
@@ -108,7 +108,7 @@ TEST(OnBoardCalibration, WritesAnEffectorThatFitsTheBoard) {
   EXPECT_NE(summary(several).find("larger than in its file"), std::string::npos);
 }
 
-// Tags that were printed apart: their places are the file's.
+// Tags that were printed separately are at the file's places.
 TEST(OnBoardCalibration, NamesTagsThatDoNotFitTheirPlaces) {
   const Apparatus file = default_apparatus(640);
   const auto several = found(file, file.board, file.effector, 6, 1.01);

@@ -1,4 +1,5 @@
-// The camera's tone curve: learned from the board, kept in its file, and where the tracker starts.
+// The camera's tone curve: learned from the board, stored in its file, and used by the tracker from
+// the start.
 #include "tracking/calibration/Response.h"
 
 #include <gtest/gtest.h>

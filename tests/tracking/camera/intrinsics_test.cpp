@@ -112,7 +112,7 @@ TEST(IntrinsicsFile, OpenCvReadsWhatIsWritten) {
   EXPECT_EQ(distortion.total(), 8U);
 }
 
-// Three keys of our own, which OpenCV passes over and files from elsewhere lack.
+// Three keys that OpenCV ignores and files of other programs lack.
 TEST(IntrinsicsFile, KeepsWhatTheCameraWasSetTo) {
   Intrinsics camera = mild;
   camera.calibrated_at = {0.0001, 35};
@@ -237,7 +237,7 @@ TEST(IntrinsicsFile, RefusesFilesThatHarmReaders) {
   EXPECT_THAT(with("x: [ 1, 2"), HasSubstr("not valid YAML"));
   EXPECT_THAT(refusal(yaml + "x: 'a"), HasSubstr("not valid YAML"));
   EXPECT_THAT(refusal(yaml + "# " + std::string(5'000'000, '.')), HasSubstr("bytes"));
-  // Neither is looked at, so neither does harm.
+  // Neither is read, so neither has an effect.
   expect_same(parse_intrinsics(yaml + "x: !!binary |\n", "c.yaml"), mild);
   expect_same(parse_intrinsics(yaml + "x: &a [ *a ]\n", "c.yaml"), mild);
 }
@@ -259,7 +259,7 @@ TEST(IntrinsicsFile, StillReadsWhatOtherProgramsWrite) {
               mild);
 }
 
-// The seed is printed where one fails; HEFT_FUZZ_SEED gives another.
+// The seed of a failure is printed; HEFT_FUZZ_SEED sets another.
 TEST(IntrinsicsFile, MutatedFilesAreReadOrRefused) {
   const char* given = std::getenv("HEFT_FUZZ_SEED");
   const std::uint64_t seed = given ? std::stoull(given) : 20261121;

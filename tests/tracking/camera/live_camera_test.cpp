@@ -1,4 +1,4 @@
-// What can be tested of a live camera without one.
+// Tests of a live camera that need no device.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/videodev2.h>
@@ -32,7 +32,7 @@ TEST(CaptureTime, IsArrivalWhereTheDriverReportsNonsense) {
     EXPECT_DOUBLE_EQ(capture_time_s(driver_s, 100, 0.004), 99.998) << driver_s;
 }
 
-// Takes the properties that it has, as drivers do; others are refused.
+// Accepts the properties that exist, as drivers do, and refuses others.
 CameraControls controls_of(std::map<int, double>& properties) {
   return {[&properties](int property, double value) {
             const auto found = properties.find(property);
@@ -78,8 +78,7 @@ TEST(LockControls, BelievesWhatItReadsBackNotWhatSetSays) {
   EXPECT_FALSE(mode.held.exposure_s);
 }
 
-// From the day of calibration to every other: what the camera was set to goes into its file, and
-// out of it into what is asked of the camera.
+// The settings at calibration are stored in the camera's file and requested in later sessions.
 TEST(LockControls, AskForWhatTheCameraWasCalibratedAt) {
   std::map<int, double> properties{{cv::CAP_PROP_AUTO_EXPOSURE, 3},
                                    {cv::CAP_PROP_EXPOSURE, 250},
@@ -123,7 +122,7 @@ TEST(LockControls, SaysWhereTheLensIsNotWhereItWasCalibrated) {
                                               HasSubstr("calibrate again"))));
 }
 
-// Some versions of OpenCV say 0 for what a driver does not have.
+// Some versions of OpenCV return 0 for properties that a driver lacks.
 TEST(LockControls, KeepsNoFocusThatCanNotBeSet) {
   const auto set = [](int property, double) { return property != cv::CAP_PROP_FOCUS; };
   CameraMode mode;
@@ -139,7 +138,7 @@ TEST(RequestFor, IsTheUsualOneWhereTheFileShowsNothing) {
   EXPECT_FALSE(request.focus);
 }
 
-// A V4L2 driver with these controls, of which it holds some at their values.
+// A V4L2 driver with these controls, some of which keep their values when set.
 struct FakeDriver {
   std::map<std::uint32_t, int> values;
   std::vector<std::uint32_t> fixed;

@@ -1,4 +1,4 @@
-// Rows that are read one after the other: what the camera makes of motion, and back.
+// Rolling shutters: the shear of moving objects in pictures, and its correction.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ Intrinsics rolling_camera() {
   return camera;
 }
 
-// The effector on its way, in the camera's frame.
+// The moving effector in the camera's frame.
 struct Moving {
   Pose start;
   Velocity velocity;

@@ -1,5 +1,5 @@
-// Edges that are known exactly: pictures of a straight step, blurred as light and stored as sRGB,
-// computed here from the formula.
+// Exactly known edges: pictures of a straight step, blurred as light and stored as sRGB, computed
+// here from the formula.
 #include <gtest/gtest.h>
 
 #include <algorithm>

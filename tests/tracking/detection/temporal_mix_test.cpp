@@ -1,4 +1,4 @@
-// Cameras that denoise over time, repeat pictures and refocus: what the tracker makes of them.
+// Tracking with cameras that denoise over time, repeat pictures or refocus.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class NoisyStep {
  public:
   NoisyStep(double share, bool spares_motion) : share_(share), spares_motion_(spares_motion) {}
 
-  /// @param edge_px where dark becomes bright
+  /// @param edge_px column at which dark changes to bright
   Image next(int edge_px, double gain = 1) {
     Image now(640, 480, 1);
     for (int y = 0; y < now.height; ++y)
@@ -63,7 +63,7 @@ TEST(TemporalMix, IsNoChangeOfGain) {
   EXPECT_NEAR(share_after(20, 0.3, 0.01), 0.3, 0.04);
 }
 
-// Levels between two edges that moved by 20 pixels: where they were dark and have become bright.
+// Mean level between the positions of an edge that moved by 20 pixels: dark before, bright now.
 double level_of_ghost(bool spares_motion, double late_s) {
   NoisyStep camera(0.3, spares_motion);
   TemporalMix mix;
@@ -87,7 +87,8 @@ struct Tracked {
   std::vector<double> tip_mm, board_mm;
 };
 
-// Held grips that move, 8 pictures each. The first one's tips do not count.
+// Grips that move, 8 pictures each. Tips of the first grip, and of the first three pictures of
+// each, are not counted.
 Tracked track(const Optics& optics, int n_grips, double speed_m_s) {
   const Apparatus apparatus = default_apparatus(640);
   SyntheticSettings settings;

@@ -81,7 +81,7 @@ TEST(ToneLearning, FindsNothingWhereNothingIsBent) {
   EXPECT_LT(tip_errors_mm({}, true).back(), 0.4);
 }
 
-// Hundredths of a pixel that are wrong in every picture alike do not average out.
+// An error of a hundredth of a pixel that is equal in all pictures does not average out.
 TEST(ToneLearning, ManyPicturesOfAnSrgbCameraBendNothing) {
   const Apparatus apparatus = default_apparatus(640);
   SyntheticCamera camera(apparatus, {}, 7);

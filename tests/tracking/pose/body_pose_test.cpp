@@ -1,4 +1,4 @@
-// Poses from edges that are known exactly.
+// Poses from exactly known edges.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 const Intrinsics camera_640 = default_camera(640, 480);
 const Pose from_board = SyntheticSettings().camera_from_board;
 
-// A tag's edges where they are, moved outwards by bias_px.
+// A tag's exact edges, moved outwards by bias_px.
 MeasuredTag exact(const Tag& tag, const Pose& pose, double bias_px = 0) {
   std::array<Eigen::Vector2d, 4> corners;
   for (std::size_t i = 0; i < 4; ++i) corners[i] = project(camera_640, pose * tag.corners_m[i]);
@@ -121,7 +121,7 @@ TEST(BodyPose, WhereThePictureCanNotDecideTheExpectedPoseDoes) {
   }
 }
 
-// The top face's tag alone, a little tilted: its mirror image is so near that both are one flat
+// The top face's tag alone, slightly tilted: its mirror image is so near that both form one flat
 // minimum.
 TEST(BodyPose, TwoTiltsThatLookAlikeLowerTheQuality) {
   MarkerBody top = box_effector(0.032);

@@ -1,4 +1,4 @@
-// What a tag's inner edges are worth, on the ray caster's pictures.
+// Poses by the inner edges of tags, on pictures of the synthetic camera.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,8 @@ Pose held(double x_m, double yaw_rad, double pitch_rad, double roll_rad) {
               Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX())};
 }
 
-// Two faces, one, and one at a slant both ways, whose blur lies at a slant on the tag.
+// Two faces, one, and one that is slanted in both directions, so that the blur on the tag is
+// slanted.
 const std::vector<Pose> grips{held(0.02, 1.4, 0.1, 0.5), held(-0.03, 1.9, 0, -0.1),
                               held(-0.02, 1.4, 0.05, -0.45), held(0.03, 1.3, 0.2, 0.2)};
 
@@ -68,7 +69,7 @@ TEST(DensePose, ATagAtASlantIsWhereItIs) {
   EXPECT_LT(tip_errors({}, true).worst_mm, 0.3);
 }
 
-// The hand covers the lower side of the face that it shows beside the top.
+// The hand covers the lower part of the side face.
 TEST(DensePose, ATagUnderFingersCountsWithWhatIsClear) {
   const Apparatus apparatus = default_apparatus(640);
   SyntheticCamera camera(apparatus, {}, 6);
@@ -89,7 +90,8 @@ TEST(DensePose, ATagUnderFingersCountsWithWhatIsClear) {
   EXPECT_LT(std::sqrt(sum_mm2 / static_cast<double>(covered.size())), 0.14);
 }
 
-// It clips white, and lies over a tag like a hill: each tag seemed larger, and up to 2 mm nearer.
+// The reflection clips white and is brightest in its middle. Without a model of it, tags seemed
+// larger and up to 2 mm nearer.
 TEST(DensePose, ALampsReflectionMovesNoTag) {
   const Apparatus apparatus = default_apparatus(640);
   for (const double exposure : {0.7, 1.0}) {
@@ -111,7 +113,7 @@ TEST(DensePose, ALampsReflectionMovesNoTag) {
   }
 }
 
-// Of random grips, RMS.
+// RMS error of the tip over random grips.
 double gripped_rms_mm(const SyntheticSettings& settings, int picture_width_px) {
   const Apparatus apparatus = default_apparatus(picture_width_px);
   SyntheticCamera camera(apparatus, settings, 11);
@@ -134,22 +136,22 @@ double gripped_rms_mm(const SyntheticSettings& settings, int picture_width_px) {
   return std::sqrt(sum_mm2 / n);
 }
 
-// Pixels that are not as bright as the light on most of the tag tell nothing.
+// Pixels in a shadow over a part of a tag must not displace the pose.
 TEST(DensePose, AShadowsEdgeOverATagPullsNoPose) {
   SyntheticSettings settings;
   settings.optics.shadow = 0.4;
   EXPECT_LT(gripped_rms_mm(settings, 640), 0.25);  // .44 where they pull
 }
 
-// The board's edges are off as a whole, and none of them is light.
+// All edges of the board are displaced; this must not be taken for reflected light.
 TEST(DensePose, TagsPrintedTooLargeAreNoUnevenLight) {
   SyntheticSettings settings;
   settings.files.board_tag_scale = 1.01;
   EXPECT_LT(gripped_rms_mm(settings, 1280), 1.5);
 }
 
-// Moved in every direction over the table, 2 pixels while the shutter is open; the third picture's
-// error, RMS.
+// RMS error in the third picture of the effector that moves in each direction over the table, 2
+// pixels during the exposure.
 double smeared_rms_mm(bool inner_edges) {
   const Apparatus apparatus = default_apparatus(640);
   SyntheticCamera camera(apparatus, {}, 5);

@@ -77,8 +77,8 @@ TEST(PoseFilter, FollowsAHandThatStartsAndStopsAtOnce) {
 }
 
 TEST(PoseFilter, VelocityIsNotLateInAStroke) {
-  // To and fro at 0.4 m/s in the middle, carried on for 50 ms as see-through glasses need. A
-  // velocity that is late by half a picture makes it 3.15 mm.
+  // To and fro at 0.4 m/s in the middle, predicted by 50 ms as for see-through glasses. A velocity
+  // that lags by half a picture would give 3.15 mm.
   constexpr double reach_m = 0.07, ahead_s = 0.05;
   const auto x_at = [](double t_s) { return reach_m * std::sin(0.4 / reach_m * t_s); };
   PoseFilter filter;

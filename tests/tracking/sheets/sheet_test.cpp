@@ -1,5 +1,5 @@
-// Sheets, looked at as a printer's raster: what is printed is where the files say, in true
-// millimeters, and the net folds into the box.
+// Rendered sheets: positions are those of the files, in true millimeters, and the net folds into
+// the box.
 #include "tracking/sheets/Sheet.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double px_per_mm = 300 / 25.4;
 
-// A folder that goes when the test does.
+// A folder that is removed after the test.
 class Sheets : public testing::Test {
  protected:
   void SetUp() override {
@@ -74,7 +74,7 @@ TagCorners tags_on(const Image& page, const std::string& family) {
   return corners_mm;
 }
 
-// Board coordinates of what is printed, in mm, from the mean of all corners.
+// Compares printed corners, in mm from the mean of all, with the board's.
 void expect_as_designed(const TagCorners& found_mm, const MarkerBody& board) {
   ASSERT_EQ(found_mm.size(), board.tags.size());
   Eigen::Vector2d middle(0, 0);
@@ -105,7 +105,7 @@ TEST_F(Sheets, BoardOfAFamilyWithDataAroundIsTrueToSize) {
   expect_as_designed(tags_on(first_page(path("board.pdf")), "tagStandard41h12"), board);
 }
 
-// Whoever measured the ruler and prints again gets the same sheet.
+// Printing again after measuring the ruler gives the same sheet.
 TEST_F(Sheets, AreDrawnAsDesignedAfterMeasuring) {
   const MarkerBody board = grid_board(3, 3, 0.040, 0.048);
   MarkerBody measured = grid_board(3, 3, 0.0392, 0.04704);
@@ -191,7 +191,7 @@ TEST_F(Sheets, HaveARulerEachWay) {
   }
 }
 
-// The ruler takes nothing of the white that the tags need.
+// The ruler must not be in the white margin of tags.
 TEST_F(Sheets, RulerLeavesTheTagsTheirWhite) {
   write_board_sheet(grid_board(6, 4, 0.040, 0.048), Paper::a4, path("b.pdf"));
   const TagCorners found_mm = tags_on(first_page(path("b.pdf")), "tag36h11");
@@ -205,7 +205,7 @@ bool is_on(const NetFace& face, const NetPoint& p) {
   return face.frame.inside_m(face.frame.flat(face.on_box(p))) > -1e-9;
 }
 
-// Where two faces meet on the net they meet on the box, and paper's printed side is outside.
+// Faces that meet on the net meet on the box, and the printed side of the paper is outside.
 void expect_folds(const BoxShape& box) {
   const EffectorNet net = effector_net(box);
   ASSERT_EQ(net.faces.size(), faces_of(box).size());
@@ -253,7 +253,7 @@ TEST_F(Sheets, NetFoldsIntoTheChamferedBox) {
   expect_closes({chamfered_size_m, chamfer_m});
 }
 
-// Whether two pieces of paper overlap: a point well inside of one in the other.
+// Two pieces of paper overlap if a point well inside one is inside the other.
 TEST_F(Sheets, FacesLieBesideEachOther) {
   for (const BoxShape& box :
        {BoxShape(Eigen::Vector3d(0.090, 0.040, 0.036)), BoxShape(chamfered_size_m, chamfer_m)}) {

@@ -12,7 +12,7 @@ using Triangle = std::array<Vector2d, 3>;
 
 const Light white(1, 1, 1, 1);
 
-// How much a triangle covers of a pixel is tested in base/scan_test.cpp.
+// Coverage of pixels by triangles is tested in base/scan_test.cpp.
 TEST(AreaRaster, GivesAPixelTheLightOfWhatCoversIt) {
   const Light color(0.5F, 0.25F, 0.125F, 1);
   AreaRaster raster;

@@ -1,5 +1,5 @@
-// From light to bytes, against the formulas; and that a part of a picture is exposed like the
-// whole.
+// Conversion of light to bytes, against the formulas; and that a part of a picture is exposed like
+// the whole.
 #include "tracking/synthetic/Sensor.h"
 
 #include <gtest/gtest.h>
@@ -96,7 +96,7 @@ TEST(Sensor, NoiseHasNormalTailsAndIsTheSameInAllChannels) {
   EXPECT_NEAR(n_beyond_3_sd / n, expected, 0.15 * expected);
 }
 
-// Bright pixels must not wrap around to dark ones: noise is cut off where 16 bits would end.
+// Bright pixels must not wrap around to dark ones: noise is limited to the range of 16 bits.
 TEST(Sensor, NoiseLargerThanAllLevelsSaturates) {
   const Sensor sensor({.noise = 5000}, 64, 64, 3);
   const auto [least, white_share] = [&] {
@@ -109,7 +109,7 @@ TEST(Sensor, NoiseLargerThanAllLevelsSaturates) {
   EXPECT_NEAR(white_share, 0.5, 0.03);
 }
 
-// Noise is there before white is clipped, so white that is far too bright has none left.
+// Noise is added before white is clipped, so that overexposed white has none.
 TEST(Sensor, OverexposedWhiteHasNoNoise) {
   const auto whites = [](double exposure) {
     Sensor sensor({.blur_px = 0, .vignetting = 0, .exposure = exposure, .noise = 3}, 32, 32, 1);
@@ -123,8 +123,8 @@ TEST(Sensor, OverexposedWhiteHasNoNoise) {
   EXPECT_NEAR(static_cast<double>(whites(1)), 0.56 * 32 * 32 * 3, 200);  // P(noise > -.5 level)
 }
 
-// What a straight edge upright in the picture looks like, wherever in a pixel it is: the normal
-// distribution that was asked, seen through a pixel's extent.
+// The profile of a vertical edge, at any position in a pixel: the normal distribution of the blur,
+// convolved with a pixel's extent.
 TEST(Sensor, AnEdgesProfileIsNormal) {
   constexpr double blur_px = 0.6, light = 1 / 1.05;
   Sensor sensor({.blur_px = blur_px, .gamma = 1, .vignetting = 0, .noise = 0}, 24, 1, 1);

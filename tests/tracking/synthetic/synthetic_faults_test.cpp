@@ -1,6 +1,5 @@
-// What the synthetic camera can have of other cameras' faults, against what can be said of them in
-// closed form: uneven light, tone curves, mosaic, sharpening, JPEG, prints and a lens that are not
-// what their files say.
+// The synthetic camera's imitation of other cameras' faults, against closed forms: uneven light,
+// tone curves, mosaic, sharpening, JPEG, and prints and a lens that deviate from their files.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +18,7 @@ const Eigen::Vector2d middle_px(32, 32);
 
 using Bgr = std::array<int, 3>;
 
-// A picture of even levels on its left, and others on its right.
+// A picture with one level on its left half and another on its right half.
 Image developed(const Optics& optics, const Bgr& left, const Bgr& right,
                 const std::optional<Eigen::Vector2d>& effector_px = middle_px) {
   Levels levels;
@@ -52,7 +51,8 @@ TEST(SyntheticFaults, AShadowTakesLightOnOneSideOfTheEffector) {
     EXPECT_EQ(at(image, 60, 60)[channel], 200);
     EXPECT_EQ(at(image, 4, 4)[channel], dark);
   }
-  // Its edge goes through the effector, at a slant of 3 to 4: half of it is missing there.
+  // The shadow's edge is at the effector, with a slope of 3 to 4; on the edge itself half of the
+  // darkness.
   const double half = stored_of_light(0.7 * light_of_stored(200)).value;
   for (const int step : {-4, 0, 4})
     EXPECT_NEAR(at(image, 32 + 3 * step, 32 - 4 * step)[1], half, 1) << step;
@@ -73,7 +73,7 @@ TEST(SyntheticFaults, GlareAddsHalfItsLightAtItsReach) {
   EXPECT_EQ(at(even(optics, 100), 32, 32)[1], 255);
 }
 
-// Light on a tone curve: what comes of it at even steps, as the formulas have it.
+// Compares the stored values at even steps of light with the formula.
 void expect_stored(const Optics& optics, const std::function<double(double)>& expected) {
   const LevelCurve curve(optics);
   for (double light = 0; light <= 1; light += 0.01)
@@ -99,7 +99,7 @@ TEST(SyntheticFaults, FilmHasAToeAndAShoulder) {
                 [&](double light) { return 0.75 * stored_part(light) + 0.25 * film(light); });
   EXPECT_GT(film(0.3), stored_part(0.3));
   EXPECT_LT(film(1), 0.9);
-  // What saturates the sensor is no brighter than that.
+  // Stored white is the sensor's saturation.
   optics.film_curve = 1;
   const LevelCurve curve(optics);
   EXPECT_EQ(curve.at(LevelCurve::place_of(1.3F)), curve.at(LevelCurve::place_of(1)));
@@ -115,7 +115,7 @@ TEST(SyntheticFaults, AnSCurveIsSteepInTheMiddle) {
   });
 }
 
-// A mosaic, JPEG and sharpening leave evenness alone, and none leaves an edge alone.
+// Mosaic, JPEG and sharpening do not change even areas, but each changes edges.
 TEST(SyntheticFaults, WhatIsEvenStaysEven) {
   Optics mosaic = quiet(), sharp = quiet(), jpeg = quiet();
   mosaic.mosaic = true;
@@ -129,7 +129,7 @@ TEST(SyntheticFaults, WhatIsEvenStaysEven) {
   }
 }
 
-// Every color comes back where it is even, and at an edge of one color others are pulled along.
+// Even areas keep their color; at an edge of one color the other colors change, too.
 TEST(SyntheticFaults, AMosaicKeepsOneColorOfEachPixel) {
   Optics optics = quiet();
   optics.mosaic = true;
@@ -152,7 +152,7 @@ TEST(SyntheticFaults, SharpeningAddsWhatABlurTakesOff) {
   Optics optics = quiet();
   optics.sharpening = 1.5;
   const Image image = developed(optics, {100, 100, 100}, {140, 140, 140});
-  // A Gaussian of 1 px, cut off at 3: the shares of it that lie beyond the edge.
+  // A Gaussian of 1 px, truncated at 3: its shares beyond the edge.
   double all = 0, beyond = 0;
   for (int i = -3; i <= 3; ++i) {
     all += std::exp(-0.5 * i * i);
@@ -204,7 +204,7 @@ TEST(SyntheticFaults, EqualSeedsGiveEqualBytesWithAllOfThem) {
   EXPECT_NE(a.picture(moving, 0.1, 4).pixels, first.pixels);
 }
 
-// A shadow that takes nothing is none, also where light is told apart before it is stored.
+// A shadow of strength 0 changes nothing, also in the path for uneven light.
 TEST(SyntheticFaults, UnevenLightThatIsEvenChangesNothing) {
   SyntheticSettings settings;
   settings.optics.noise = 0;
@@ -303,7 +303,7 @@ TEST(SyntheticFaults, PicturesAreRepeatedAndLostAsOftenAsIsSaid) {
   EXPECT_NEAR(n_dropped, 20, 12);
 }
 
-// The picture of files that are wrong is that of things as they are.
+// With wrong files, the picture shows the true board, effector and lens.
 TEST(SyntheticFaults, FilesAreWrongByWhatIsSaid) {
   const Apparatus told = default_apparatus(640);
   Apparatus real = told;

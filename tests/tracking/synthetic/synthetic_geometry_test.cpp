@@ -1,5 +1,5 @@
-// The synthetic camera is what others are measured with: edges must be where Intrinsics::project
-// says, to 0.01 px.
+// The synthetic camera is the reference for other tests: its edges must be where
+// Intrinsics::project says, to 0.01 px.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -38,7 +38,8 @@ std::array<int, 3> bgr(const Image& image, int x, int y) {
   return {pixel[0], pixel[1], pixel[2]};
 }
 
-// Where an edge between two plateaus crosses a row (or a column), from the light on both sides.
+// Position at which an edge between two plateaus crosses a row (or a column), from the light on
+// both sides.
 double crossing_px(const Image& image, int along, int across, bool in_row, int reach) {
   const auto at = [&](int i) { return in_row ? green(image, i, across) : green(image, across, i); };
   const double before = at(along - reach), after = at(along + reach);
@@ -97,8 +98,8 @@ TEST(SyntheticGeometry, BlurOnLinearLightMovesNoEdge) {
         << "tag " << tag.id;
 }
 
-// The effect that decides tracking accuracy (a black edge moves by .28 px at the project's usual
-// optics) must be in the pictures, or nothing learnt from them holds.
+// Pictures must have the effect that limits tracking accuracy: a black edge moves by .28 px with
+// the project's usual optics.
 TEST(SyntheticGeometry, BlurBehindAToneCurveShrinksBlackTags) {
   const Apparatus apparatus = default_apparatus(1280);
   SyntheticSettings settings = ideal_sensor();
@@ -186,10 +187,10 @@ TEST(SyntheticGeometry, MotionSmearsAnEdgeAsFarAsItMoves) {
   EXPECT_NEAR(std::sqrt(12 * (variance - pixel_variance)), smear_px, 0.03 * smear_px);
 }
 
-// Of a tag's upper edge, nearly level: how far its crossings are from the line through the corners
-// on average where they lie in the same part of their pixel. Rays, or moments of the exposure, that
-// are taken at the same places in every pixel would move edges to and fro with that part; the
-// camera has an area's light in closed form instead, and no rays.
+// For a tag's upper edge, which is nearly horizontal: the largest mean distance of its crossings
+// from the line through the corners, over crossings at the same part of their pixel. Rays, or
+// moments of the exposure, at the same places in every pixel would displace edges by that part; the
+// camera integrates light over areas in closed form instead.
 double worst_by_part_px(const Image& image, const Tag& tag, const Intrinsics& camera,
                         const Pose& camera_from_body, int reach) {
   constexpr std::size_t n_parts = 5;
@@ -296,7 +297,8 @@ TEST(SyntheticGeometry, TheHandHidesTheBackAndNotTheTagsAtTheTip) {
   EXPECT_TRUE(differ_at({-0.030, 0.008, 0.02}));                       // thumb
 }
 
-// Wherever people push: from the resting place to behind the cubes, turned to both sides.
+// At all places where people push: from the resting place to behind the cubes, turned to both
+// sides.
 TEST(SyntheticGeometry, TheArmComesFromBeyondThePicture) {
   const Apparatus apparatus = default_apparatus(640);
   SyntheticSettings settings = ideal_sensor();

@@ -1,5 +1,4 @@
-// What lens and sensor do to light: tone curve, exposure, vignetting, noise; and that equal
-// seeds give equal bytes.
+// Lens and sensor: tone curve, exposure, vignetting, noise; and that equal seeds give equal bytes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -96,7 +95,7 @@ struct NoiseFigures {
   double mean = 0, sd = 0, correlation = 0;
 };
 
-// Of two pictures' noise, where there is room for it below saturation.
+// Noise of two pictures, at pixels far enough below saturation.
 NoiseFigures noise_of(const Image& a, const Image& b, const Image& clean) {
   double sum = 0, sum_aa = 0, sum_ab = 0;
   int n = 0;
