@@ -1,6 +1,6 @@
-"""Every figure that heft analyse gives of fixed simulated studies: JSON and CSV, value by value.
+"""Every figure of heft analyse for fixed simulated studies: JSON and CSV, value by value.
 
-Figures must stay; further keys, columns and rows of new measures may come. Words are not compared.
+Existing figures must not change; new keys, columns and rows are allowed. Words are not compared.
 Run: python3 tests/cli/analyse_golden_test.py PATH_TO_HEFT [--update]
 """
 import csv

@@ -1,4 +1,4 @@
-"""heft validate, sheet and calibrate on boards and effectors, from the outside.
+"""The commands heft validate, sheet and calibrate with boards and effectors.
 
 Run as: python3 tests/cli/apparatus_test.py PATH_TO_HEFT
 """

@@ -1,6 +1,6 @@
-"""Another process locks the database at random moments of a session: it waits, or is killed while it
-waits; either way it ends as a session without a lock does. HEFT_MOMENTS sets how many, HEFT_SEED
-repeats what failed.
+"""Another process locks the database at random moments of a session: the session waits, or is killed
+meanwhile and resumed, and its log equals that of a session without a lock. HEFT_MOMENTS sets the
+number of moments, HEFT_SEED repeats a failure.
 
 Run: python3 tests/cli/busy_database_test.py PATH_TO_HEFT [-v]
 """

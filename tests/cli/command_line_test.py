@@ -1,4 +1,4 @@
-"""What the command line takes, what it refuses, and how it says so.
+"""Command lines that are accepted or refused, and the messages.
 
 Run: python3 tests/cli/command_line_test.py PATH_TO_HEFT
 """
@@ -408,7 +408,7 @@ class GoingOn(CommandLine):
         for (responder, options), expected in zip(rows, ("coin:{}/mine.toml", "scripted:{}/hand")):
             self.assertEqual(responder, expected.format(self.folder))
             self.assertEqual(json.loads(options)["responder"], responder)
-        # From another folder the recording is found again, and ends again too early.
+        # Resumed from another folder, it finds the recording, which ends too early again.
         said = self.run_heft("resume", "--db", db, cwd=ROOT, expect=1).stderr
         self.assertIn("no more actions", said)
 

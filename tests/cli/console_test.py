@@ -1,4 +1,4 @@
-"""The experimenter's terminal during a person's session: what it shows, and what its keys do.
+"""The experimenter's terminal during a person's session: its display and its keys.
 
 Run: python3 tests/cli/console_test.py path/to/heft
 """
@@ -198,7 +198,7 @@ class Console(AtAConsole):
             other.execute("rollback")
             other.close()
             self.assertTrue(self.terminal.wait_for(lambda: self.n("continued") == ends_trial + 1))
-            # Frames that were due may have met the lock first; then the session was paused before.
+            # A frame's write may have met the lock first; then the session was paused earlier.
             was_taken = answers() - 3 * ends_trial
             self.assertIn(was_taken, (0, 1))
             status = "completed" if ends_trial and was_taken else "void"
@@ -286,7 +286,7 @@ class DemonstrationAlone(AtAConsole):
             if page and page[1] != "thanks":
                 time.sleep(1)  # the first moments of a page take no keys
                 self.screen.key("Return")
-                # A second key, where the first is only late, would turn the last page too.
+                # If the first key only has a delay, a second one would turn the last page, too.
                 self.terminal.wait_for(lambda: self.person.page() != page, 5)
             return page and page[1] == "thanks"
         self.assertTrue(self.terminal.wait_for(is_last_page), self.terminal.shown)
@@ -413,7 +413,7 @@ class SmallTerminal(unittest.TestCase):
                         self.shell.shown)
 
     def widest_drawn(self, since):
-        """Of the lines that were drawn over and over."""
+        """Length of the longest redrawn line."""
         drawn = re.findall(r"\r\x1b\[J([^\r\n]*)\r?\n([^\r\n]*?)\x1b\[A", self.shell.shown[since:])
         self.assertTrue(drawn, self.shell.shown[since:])
         return max(len(line) for lines in drawn for line in lines)

@@ -1,6 +1,6 @@
-"""What other programs and other people's files do to a session: logs that are moved, linked, deleted
-or locked while they are written, readers that go away, files that are no files, names that are
-commands.
+"""Sessions with interfering programs and invalid files: logs that are moved, linked, deleted or
+locked while they are written, output that nobody reads, pipes and devices given as files, names
+with special characters.
 
 Run: python3 tests/cli/hostile_world_test.py PATH_TO_HEFT [-v]
 """

@@ -1,4 +1,4 @@
-"""What a log proves: no figure from a changed log, heads as witnesses, withdrawal, privacy.
+"""Integrity of logs: no figure from a changed log, heads as witnesses, withdrawal, privacy.
 
 Run: python3 tests/cli/integrity_test.py PATH_TO_HEFT
 """
@@ -79,7 +79,7 @@ class Figures(Integrity):
             connection.close()
             return f"{table}.{column} of row {row}: {new!r} instead of {old!r}"
 
-    # Bits in unused parts of pages are no change of the log.
+    # Changes in unused parts of pages do not count.
     def test_no_figure_comes_from_flipped_bits_in_rows(self):
         self.people(2)
         change(self.db, "vacuum")
@@ -150,7 +150,7 @@ class Several(Integrity):
         listed = self.run_heft("list", "--db", self.db).stdout.splitlines()
         self.assertRegex(listed[0], r"^all: protocol \w+, purpose \w+, state finished$")
         self.assertLessEqual(max(map(len, listed)), 80)
-        # One that differs gets its own line.
+        # A session that differs gets its own line.
         change(self.db, "update trial set outcome = 'none' where session_id = 2")
         replayed = self.run_heft("replay", "--db", self.db, expect=5).stdout
         self.assertRegex(replayed, r"session 1: verified.*\nsession 2: DIVERGED(.*\n)+session 3: verified")
@@ -299,8 +299,8 @@ class Privacy(Integrity):
             mode = stat.S_IMODE(path.stat().st_mode)
             self.assertEqual(mode & 0o077, 0, f"{path}: {mode:o}")
 
-    # By everything but the measurements: ids, seeds, order of rows, dates. A simulated participant's
-    # drawn parameters identify them.
+    # Ids, seeds, order of rows and dates must not identify participants. Measurements may: the drawn
+    # parameters of a simulated one do.
     def test_a_pseudonymised_export_shows_nothing_about_who_took_part_when(self):
         n, n_exports = 26, 4
         self.run_heft("simulate", TINY, "--participants", n, "--db", self.db, "--seed", SEED)

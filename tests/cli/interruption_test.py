@@ -120,7 +120,7 @@ class FullDisk(SessionTest):
         self.assertIn("full", done.stderr)
         self.assertIn("heft resume", done.stderr)
         self.assertEqual(query(db, "pragma integrity_check"), [("ok",)])
-        # With room again it goes on as if nothing had happened.
+        # With more space the session can be resumed.
         subprocess.run(["mount", "-o", "remount,size=64m", self.disk], check=True)
         self.run_heft("resume", "--db", db)
         whole = self.folder / "whole.db"

@@ -1,5 +1,5 @@
-"""heft new: what it writes compiles or is valid, its test fails for the reason that it names, and a
-refused name changes nothing.
+"""heft new: its files compile or are valid, its test fails with the stated reason, and a refused name
+changes nothing.
 
 Run: python3 tests/cli/new_test.py PATH_TO_HEFT
 With HEFT_WHOLE_BUILD=1 also: build a copy of the source with one new entry of each kind and run all tests.

@@ -1,4 +1,4 @@
-"""Questionnaires of a protocol: whoever takes part is asked each once, however the session goes on.
+"""Questionnaires of a protocol: each participant is asked each one once, also in resumed sessions.
 
 Run: python3 tests/cli/questionnaires_test.py path/to/heft
 """

@@ -187,7 +187,7 @@ class Commands(Parsed):
             self.run_r(in_r)
 
     def query(self, sql):
-        """Rows are expected, as a query without any shows nothing."""
+        """Each query must return rows."""
         with sqlite3.connect(self.folder / "lab.db") as db:
             for statement in filter(str.strip, sql.split(";")):
                 self.assertTrue(db.execute(statement).fetchall(), f"no rows: {statement}")

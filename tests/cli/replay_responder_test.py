@@ -1,4 +1,4 @@
-"""Responders on logged frames, what a what-if would be noticed by, and logs shown again.
+"""Responders on logged frames, visible differences of what-if simulations, and display of logs.
 
 Run: python3 tests/cli/replay_responder_test.py PATH_TO_HEFT
 """
@@ -42,7 +42,7 @@ masses_g = [15, 200, 800]
 trials = 2
 c1_trials = 1
 """
-# Who finds cubes so alike that the introduction's first choice is often wrong.
+# A responder whose first choice in the introduction is often wrong.
 BLIND = "judgment_noise_mm = 50\nmemory_noise = 1\nlapse_rate = 0.5\n"
 
 

@@ -1,4 +1,4 @@
-"""What `heft run` refuses before anything is logged, and where a resumed session goes on writing.
+"""Options that `heft run` refuses before anything is logged, and the files of resumed sessions.
 
 Run: python3 tests/cli/run_options_test.py path/to/heft
 """
@@ -13,7 +13,7 @@ APPARATUS = PROTOCOLS / "apparatus"
 
 class Options(SessionTest):
     def refused(self, code, *options):
-        """@return what it says; no log, video or recording is left behind."""
+        """@return the message; checks that no log, video or recording was written"""
         before = sorted(self.folder.iterdir())
         run = self.session(self.folder / "a.db", *options, expect=code, cwd=self.folder)
         self.assertEqual(run.stdout, "")
@@ -58,7 +58,7 @@ class Options(SessionTest):
         named = self.write("mine.yaml", "%YAML:1.0\n---\n")
         said = self.refused(3, "--tracker", "camera:63", "--camera-file", named)
         self.assertNotIn("camera calibration", said)
-        # The made-up camera has its own calibration, whatever lies here.
+        # The synthetic camera ignores the calibration in this folder.
         self.write("camera.yaml", "%YAML:1.0\n---\n")
         self.assertIn("none.yaml", self.refused(1, "--tracker", "synthetic", "--effector",
                                                 "none.yaml"))

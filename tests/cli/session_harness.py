@@ -67,7 +67,7 @@ def change(db, sql):
 
 
 def outcome_of(db, frames=False):
-    """What an interruption must not change."""
+    """Rows that an interruption must not change."""
     parts = [TRIALS, CUBES, ANSWERS, REVERSALS, ESTIMATES] + ([FRAMES] if frames else [])
     return [query(db, sql) for sql in parts]
 

@@ -1,4 +1,4 @@
-"""Sessions through the command line: run, resume, simulate, replay, and what goes wrong.
+"""Sessions through the command line: run, resume, simulate, replay, and errors.
 
 Run: python3 tests/cli/session_test.py PATH_TO_HEFT
 """
@@ -139,7 +139,7 @@ class Running(SessionTest):
 
 
 class ScriptedHand(SessionTest):
-    """A hand that was recorded elsewhere, fed in as files."""
+    """A recorded hand, given as files."""
 
     def record(self):
         folder = self.folder / "hand"
@@ -206,7 +206,7 @@ discard_reversals = 0
 
 
 class Replaying(SessionTest):
-    """A log changed in one row is caught, and the place is named."""
+    """A changed row of a log is found and named."""
 
     def setUp(self):
         super().setUp()

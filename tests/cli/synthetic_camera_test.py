@@ -1,5 +1,5 @@
-"""The synthetic camera from outside: its settings, its recording, and its exact poses against what
-`heft track` makes of the pictures.
+"""The synthetic camera through the command line: its settings, its recording, and its exact poses
+against those of `heft track`.
 
 Run: python3 tests/cli/synthetic_camera_test.py path/to/heft
 """

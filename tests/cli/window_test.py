@@ -26,7 +26,7 @@ class Screen:
     def __init__(self, size=SIZE, pictures=None):
         """@param pictures: a folder for the picture, as Xvfb's -fbdir writes it"""
         read_end, write_end = os.pipe()
-        # A server that starts afresh when its last client leaves refuses who comes meanwhile.
+        # Without -noreset the server restarts after its last client and refuses new ones meanwhile.
         self.server = subprocess.Popen(
             ["Xvfb", "-noreset", "-displayfd", str(write_end),
              "-screen", "0", f"{size[0]}x{size[1]}x24",

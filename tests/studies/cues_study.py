@@ -90,7 +90,7 @@ def of_trials(trials, value, target):
 
 
 def cues_of(trials):
-    """-> {cue: how well it tells, of 1}"""
+    """-> {cue: fraction of correct predictions, 0.5 by chance}"""
     sorting = [t for t in trials if t["task"] == "sorting"]
     c1 = [t for t in sorting if t["condition"] == "C1"]
     compared = [t for t in trials if t["task"] == "comparison"]

@@ -1,5 +1,5 @@
-"""The report as a real browser prints it: A4, every figure and table on paper, nothing cut off at
-the side and no page empty. Exits 77 without Chromium and poppler (Debian: chromium, poppler-utils).
+"""The report printed by a browser: A4, every figure and table complete, no page empty. Exits with 77
+without Chromium and poppler (Debian: chromium, poppler-utils).
 
 Run: python3 tests/studies/report_pdf.py PATH_TO_HEFT [KEEP_PDF_AS]
 """

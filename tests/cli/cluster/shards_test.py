@@ -1,6 +1,6 @@
 """Simulations in shards, killed at random moments and run again, and a merge that is killed, too: the
-merged log is that of one run, row for row. Refusals, help and completion. HEFT_SEED repeats what
-failed.
+merged log is that of one run, row for row. Refusals, help and completion. HEFT_SEED repeats a
+failure.
 
 Run: python3 tests/cli/cluster/shards_test.py PATH_TO_HEFT [-v]
 """

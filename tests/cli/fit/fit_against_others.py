@@ -1,5 +1,5 @@
-"""heft fit beside SciPy and R's ordinal::clm and clmm on fresh random data: the same figures, and how
-long each takes. Exits 77 where these are not installed (Debian: python3-scipy, r-cran-ordinal).
+"""Compares heft fit with SciPy and R's ordinal::clm and clmm on new random data: figures and time.
+Exits with 77 where these are not installed (Debian: python3-scipy, r-cran-ordinal).
 
 Run: python3 tests/cli/fit/fit_against_others.py PATH_TO_HEFT [SEED [DATASETS]]
 """
@@ -42,7 +42,7 @@ def psychometric(folder, rng, n_datasets):
 
 
 def timed(run):
-    """-> what it gives, and the processor time of the programs that it ran: others' load is not in it"""
+    """-> the result, and the processor time of the programs that it ran"""
     def used():
         usage = resource.getrusage(resource.RUSAGE_CHILDREN)
         return usage.ru_utime + usage.ru_stime

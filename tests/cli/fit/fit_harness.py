@@ -1,4 +1,4 @@
-"""Runs `heft fit` and holds its figures against those of other programs (tests/golden/fit)."""
+"""Runs `heft fit` and compares its figures with those of other programs (tests/golden/fit)."""
 import json
 import subprocess
 

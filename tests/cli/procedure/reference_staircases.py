@@ -1,4 +1,4 @@
-"""Staircases as other programs document them, written anew for comparison with `heft procedure`.
+"""Staircases as documented by other programs, implemented here to compare with `heft procedure`.
 
 Each reference has `level` (to present next), `answer(positive)`, `finished`, `reversals` (levels
 presented on reversal trials), and `keys()`: the same rule as keys of a procedure file.

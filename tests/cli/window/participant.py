@@ -1,6 +1,6 @@
-"""A participant who sees the screen's pixels alone, and has a mouse.
+"""A simulated participant who only sees the screen's pixels and uses a mouse.
 
-Buttons are areas of their colors (src/window/Painter.cpp), the scene's objects those of theirs.
+Recognizes buttons (src/window/Painter.cpp) and the scene's objects by their colors.
 """
 import mmap
 import struct

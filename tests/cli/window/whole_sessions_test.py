@@ -1,4 +1,4 @@
-"""Whole sessions at four resolutions, by a participant who sees pixels and has a mouse.
+"""Whole sessions at four resolutions, by a simulated participant who sees pixels and uses a mouse.
 
 Run: python3 tests/cli/window/whole_sessions_test.py path/to/heft
 """

@@ -1,5 +1,5 @@
 """The same fits by other programs: psychometric functions by SciPy, the choice with indecision by
-R's ordinal::clm. Formulas are written again here, on purpose."""
+R's ordinal::clm. Independent of heft's code: the formulas are repeated here."""
 import csv
 import math
 import os
