@@ -1,5 +1,4 @@
-// Suppresses findings of sanitizers in libraries that are not built here; only part of sanitizer
-// builds.
+// Suppresses findings of sanitizers in other libraries; only part of sanitizer builds.
 
 // Unloading a driver removes its pointers to memory that it has not freed, which then counts as a
 // leak. So none is unloaded.

@@ -1,5 +1,4 @@
 // Inputs of every kind that heft reads: whatever they contain, only an Error may be thrown.
-//
 // With clang's libFuzzer, a program for each kind:
 //   cmake --preset fuzz && cmake --build build-fuzz
 //   build-fuzz/tests/fuzz/fuzz_scene -max_total_time=600 found/scene tests/fuzz/corpus/scene

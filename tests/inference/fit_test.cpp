@@ -1,6 +1,5 @@
-// Fits of simulated people: the true parameters are found, intervals contain them as often as
-// stated, and there are no values where the data do not determine them. Against other programs:
-// tests/golden/fit.
+// Fits of simulated people: estimates, coverage of intervals, and no values where the data do not
+// determine them. Against other programs: tests/golden/fit.
 #include "inference/Fit.h"
 
 #include <gmock/gmock.h>

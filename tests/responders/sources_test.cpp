@@ -1,5 +1,4 @@
-// The code of simulated participants must not contain figures of the paper's results, with which
-// they are compared.
+// Simulated participants must not contain figures of the paper's results.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,5 +1,4 @@
-// The simulated people of the procedures study have the stated properties, and its quick run writes
-// its files.
+// The people of the procedures study are as stated; its quick run writes its files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

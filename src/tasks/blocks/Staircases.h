@@ -1,6 +1,5 @@
-// The procedures of a block, interleaved: which one the next trial belongs to, how responses change
-// them, how long they take. Tasks define what a trial shows at a level, and which response an
-// answer is.
+// The interleaved procedures of a block: which one is next, their responses and duration. Tasks
+// define what a trial shows at a level, and which response an answer is.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,4 @@
-// The camera's tone curve: learned from the board, stored in its file, and used by the tracker from
-// the start.
+// The camera's tone curve: learned from the board, stored in its file, used by the tracker.
 #include "tracking/calibration/Response.h"
 
 #include <gtest/gtest.h>
