@@ -271,6 +271,11 @@ void Command::add_flag(const std::string& name, bool& flag, const std::string& h
   app_.add_flag(name, flag, help)->group(group_);
 }
 
+void Command::add_log(std::string& db, const std::string& help) {
+  db = usual_log;
+  add_option("--db", &db, help).shows_default();
+}
+
 void Command::add_session(std::optional<std::int64_t>& session, const std::string& without_it) {
   add_option("--session", &session, "of the log (default: " + without_it + ")")
       .whole_number(1, most_sessions);

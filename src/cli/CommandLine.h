@@ -17,6 +17,9 @@ class Option;
 
 namespace heft::cli {
 
+/// The log of commands without --db.
+inline constexpr const char* usual_log = "heft.db";
+
 /// Reads an option's text during parsing; may throw Error.
 struct ReadsText {
   std::function<void(const std::string&)> read;
@@ -62,6 +65,8 @@ class Command {
   /// Starts a group: options added from here on are under this heading in --help.
   void group(const std::string& heading) { group_ = heading; }
 
+  /// Adds --db. @param db set to usual_log
+  void add_log(std::string& db, const std::string& help = "the log");
   /// Adds --session of a log.
   void add_session(std::optional<std::int64_t>& session, const std::string& without_it);
   void add_sessions(std::vector<std::int64_t>& sessions, const std::string& help);
@@ -96,8 +101,7 @@ struct ProgramDescription {
 /// Runs the command in argv. --help, --version and the command `completion`, which every program
 /// has, print to stdout.
 /// @throws Error (usage) for invalid arguments, with the most similar valid one; the command's
-/// errors
-///   throws
+///   errors throws
 void run_command_line(const ProgramDescription& program, int argc, char** argv);
 
 }  // namespace heft::cli

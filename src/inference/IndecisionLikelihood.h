@@ -30,8 +30,7 @@ struct LevelLikelihood {
 };
 
 /// @param before log likelihood of the levels before, to which each answer's is added in turn: a
-/// sum
-///   in another order would differ in the last digits
+///   sum in another order would differ in the last digits
 double level_log_likelihood(const IndecisionParameters& parameters, const LevelAnswers& answers,
                             double before);
 LevelLikelihood level_likelihood(const IndecisionParameters& parameters,

@@ -154,8 +154,7 @@ class UpDown {
 
   /// Records the response to a trial. Undefined after the end (see finished()).
   /// @param shown the level that was presented, if not level(), within +-largest_level. It is the
-  /// value of
-  ///   a reversal; the next level follows the planned level.
+  ///   value of a reversal; the next level follows the planned level.
   Update respond(bool positive, std::optional<double> shown = std::nullopt);
 
   // Members of every ProcedureKind.

@@ -16,7 +16,7 @@ namespace heft {
 struct SessionRequest {
   ResolvedConfig config;
   std::string participant;
-  std::string db = "heft.db";
+  std::string db;
   Purpose purpose = Purpose::main;  ///< of a person's session
   /// Known facts about the participant: their place in a study.
   std::map<std::string, std::string> participant_info = {};
@@ -24,9 +24,8 @@ struct SessionRequest {
   std::string started_utc = {};  ///< empty: now
 };
 
-/// @throws Error if the log's path is a device, a pipe or a socket: opening one could wait forever
-/// or
-///   leave files beside it
+/// @throws Error if the path is a device, a pipe or a socket, because opening one may wait forever
+///   or leave files beside it
 void refuse_special_file(const std::string& db);
 
 struct SessionResult {

@@ -57,7 +57,7 @@ std::string screen_of(const Summary& summary, const AnalyseOptions& options,
 }
 
 void analyse(AnalyseOptions options) {
-  if (options.databases.empty()) options.databases = {"heft.db"};
+  if (options.databases.empty()) options.databases = {usual_log};
   for (const std::string& database : options.databases) refuse_special_file(database);
   if (!options.out.empty()) refuse_foreign_folder(options.out);
   const Summary summary =

@@ -348,7 +348,7 @@ void diagnose(const std::string& db, const SessionOptions& given, double rate_hz
 
 void add_doctor(Command& app) {
   struct DoctorOptions {
-    std::string db = "heft.db", responder;
+    std::string db, responder;
     SessionOptions given;
     double rate_hz = 15;
     bool list = false, latency = false;
@@ -360,8 +360,7 @@ void add_doctor(Command& app) {
       {"heft doctor", "heft doctor --list", "heft doctor --tracker camera:0",
        "heft doctor --tracker camera:0 --camera-file camera.yaml --board board.toml",
        "heft doctor --tracker camera:0 --latency", "heft doctor --responder simulated"});
-  command.add_option("--db", &options->db, "the log to check, with its folder and disk")
-      .shows_default();
+  command.add_log(options->db, "the log to check, with its folder and disk");
   add_plug(command, "--tracker", options->given.tracker,
            "examine this camera: camera:N, video:FILE, frames:FOLDER");
   add_apparatus_options(command, options->given);

@@ -61,7 +61,7 @@ void list_files(const std::vector<ExportedFile>& files) {
 void export_to(const ExportOptions& options) {
   std::vector<std::string> logs = options.logs;
   logs.insert(logs.end(), options.databases.begin(), options.databases.end());
-  if (logs.empty()) logs.emplace_back("heft.db");
+  if (logs.empty()) logs.emplace_back(usual_log);
   for (const std::string& log : logs) refuse_special_file(log);
   refuse_filled_folder(options.out);
   const LogIntegrity integrity = integrity_of(logs, {}, options.unverified);

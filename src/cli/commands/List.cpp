@@ -124,14 +124,14 @@ void list(const std::string& db, bool json) {
 
 void add_list(Command& app) {
   struct ListOptions {
-    std::string db = "heft.db";
+    std::string db;
     bool json = false;
   };
   const auto options = std::make_shared<ListOptions>();
   Command command =
       app.add_command("list", "the sessions of a log: participant, protocol, progress",
                       {"heft list --db lab.db", "heft list --db lab.db --json"});
-  command.add_option("--db", &options->db, "the log").shows_default();
+  command.add_log(options->db);
   command.add_flag("--json", options->json, "JSON on stdout instead of a table");
   command.does([options] { list(options->db, options->json); });
 }

@@ -27,7 +27,7 @@ namespace heft::cli {
 namespace {
 
 struct ReplayOptions {
-  std::string db = "heft.db";
+  std::string db;
   std::optional<std::int64_t> session;
   std::vector<ResponderChoice> responders;
   int repeats = JudgeRequest{}.repeats;
@@ -297,7 +297,7 @@ void add_replay(Command& app) {
        "heft replay --db lab.db --responder simulated --set coupling.stiffness_n_per_m=100",
        "heft replay --db lab.db --responder coin --rerun",
        "heft replay --db lab.db --session 3 --view video:three.mp4 --set physics.friction=0.64"});
-  command.add_option("--db", &options->db, "the log").shows_default();
+  command.add_log(options->db);
   command.add_session(options->session, "all");
   add_responders(command, options->responders,
                  "NAME[:FILE] ...: score these models by how well their answers to the displayed "

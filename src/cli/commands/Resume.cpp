@@ -68,7 +68,7 @@ void end(const std::string& db, std::optional<std::int64_t> session_id, const st
 
 void add_resume(Command& app) {
   struct ResumeOptions {
-    std::string db = "heft.db";
+    std::string db;
     std::optional<EventTarget> events;
     std::optional<std::int64_t> session;
     SessionOptions again;
@@ -80,7 +80,7 @@ void add_resume(Command& app) {
                       {"heft resume --db lab.db", "heft resume --db lab.db --session 3",
                        "heft resume --db lab.db --responder scripted:recorded/07-second-half",
                        "heft resume --db lab.db --session 3 --end"});
-  command.add_option("--db", &options->db, "the log").shows_default();
+  command.add_log(options->db);
   command.add_session(options->session, "the newest unfinished one");
   add_session_options(command, options->again, true);
   command.add_option("--simulator", &options->again.simulator,

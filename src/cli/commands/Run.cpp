@@ -20,9 +20,6 @@
 namespace heft::cli {
 
 namespace {
-
-constexpr const char* usual_db = "heft.db";
-
 struct RunOptions {
   std::string protocol, plan;
   std::optional<EventTarget> events;
@@ -199,7 +196,7 @@ void take_from_plan(RunOptions& options) {
                 ExitCode::usage);
   const StudyPlan plan = load_study(options.plan);
   fill_from(plan, options);
-  if (!options.db) options.db = usual_db;
+  if (!options.db) options.db = usual_log;
   const Purpose purpose = is_persons(options) ? purpose_of(options) : Purpose::simulated;
   const std::vector<SessionRow> sessions = sessions_in(*options.db);
   const PlannedParticipant planned =
@@ -265,7 +262,7 @@ void complete(RunOptions& options) {
   if (options.protocol.empty()) refuse_missing("PROTOCOL");
   if (!options.participant) refuse_missing("--participant");
   check_participant(*options.participant);
-  if (!options.db) options.db = usual_db;
+  if (!options.db) options.db = usual_log;
 }
 
 void run(RunOptions options) {

@@ -252,7 +252,7 @@ void show(const std::string& db, std::optional<std::int64_t> session_id, bool js
 
 void add_show(Command& app) {
   struct ShowOptions {
-    std::string db = "heft.db";
+    std::string db;
     std::optional<std::int64_t> session;
     bool json = false;
   };
@@ -260,7 +260,7 @@ void add_show(Command& app) {
   Command command =
       app.add_command("show", "one session: progress, configuration, checks, notes, void trials",
                       {"heft show --db lab.db", "heft show --db lab.db --session 3 --json"});
-  command.add_option("--db", &options->db, "the log").shows_default();
+  command.add_log(options->db);
   command.add_session(options->session, "the newest one");
   command.add_flag("--json", options->json, "JSON on stdout instead of text");
   command.does([options] { show(options->db, options->session, options->json); });

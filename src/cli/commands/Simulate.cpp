@@ -19,7 +19,7 @@ namespace heft::cli {
 namespace {
 
 struct SimulateOptions {
-  std::string protocol, db = "heft.db", level = "hand";
+  std::string protocol, db, level = "hand";
   SessionOptions given;
   std::optional<std::uint64_t> seed;
   std::optional<Shard> shard;
@@ -144,8 +144,7 @@ void add_simulate(Command& app) {
       .whole_number(1, 1'000'000)
       .shows_default();
   command.add_jobs(options->jobs, "the data do");
-  command.add_option("--db", &options->db, "the log; an existing one gets more sessions")
-      .shows_default();
+  command.add_log(options->db, "the log; an existing one gets more sessions");
   command.add_seed(options->seed);
   command
       .add_option(

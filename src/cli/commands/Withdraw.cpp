@@ -20,7 +20,7 @@ namespace heft::cli {
 
 namespace {
 struct WithdrawOptions {
-  std::string db = "heft.db";
+  std::string db;
   std::optional<std::int64_t> session;
   std::vector<std::string> folders;
   bool yes = false;
@@ -110,7 +110,7 @@ void add_withdraw(Command& app) {
       "withdraw", "remove a person's data from a log, and list the copies that remain",
       {"heft withdraw --db lab.db --session 7", "heft withdraw --db lab.db --session 7 --yes",
        "heft withdraw --db lab.db --session 7 --search /media/stick"});
-  command.add_option("--db", &options->db, "the log").shows_default();
+  command.add_log(options->db);
   command.add_session(options->session, "none, required");
   command.add_option("--search", &options->folders,
                      "another folder to search for copies, beside the log's and its backups'; "

@@ -23,8 +23,7 @@ class DiskFrictionSolver : public btSequentialImpulseConstraintSolver {
  protected:
   /// Needs two friction directions per contact (SOLVER_USE_2_FRICTION_DIRECTIONS) and no joints.
   /// @return the largest squared change of a contact velocity, m^2/s^2; Bullet stops iterating when
-  /// it
-  ///   falls below m_leastSquaresResidualThreshold
+  ///   it falls below m_leastSquaresResidualThreshold
   btScalar solveSingleIteration(int iteration, btCollisionObject** bodies, int n_bodies,
                                 btPersistentManifold** manifolds, int n_manifolds,
                                 btTypedConstraint** joints, int n_joints,

@@ -54,8 +54,7 @@ class LiveCamera final : public Camera {
 
 /// Middle of the exposure on the monotonic clock.
 /// @param driver_s the driver's time of the picture; used if it is within the second before
-/// arrival,
-///   otherwise the time of arrival is
+///   arrival, otherwise the time of arrival is
 double capture_time_s(double driver_s, double arrival_s, double exposure_s);
 
 /// Reads and sets a device's controls by OpenCV's property number.

@@ -24,8 +24,7 @@ std::vector<std::string> device_modes(const VideoDevice& device,
 int device_number(const std::string& text);
 
 /// @throws Error (device_missing) if the device is missing, listing the existing ones, or if this
-/// user
-///   has no permission, with advice
+///   user has no permission, with advice
 void check_device(int number, const std::string& folder = "/dev");
 
 /// "/dev/video0 (Logitech BRIO), /dev/video2"; "none is connected" without any.

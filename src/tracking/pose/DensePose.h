@@ -18,8 +18,7 @@ namespace heft {
 /// @param noise SD of the picture's, gray levels  @param smear none: no motion
 /// @param rows of a rolling shutter with a moving body; none: all rows at the same time
 /// @return the start with another pose, bias and covariance; none if the pixels do not support it:
-/// no tag,
-///   blurred over cells, not explained, or far from the start
+///   no tag, blurred over cells, not explained, or far from the start
 std::optional<BodyFit> align_densely(const Image& gray, const Intrinsics& camera,
                                      std::span<const DenseTag> tags, const BodyFit& start,
                                      const BiasPrior& prior, const ToneCurve& curve, double noise,

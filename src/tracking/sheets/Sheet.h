@@ -21,8 +21,7 @@ struct EnumNames<Paper> {
 /// The board's tags in the middle of the sheet, portrait or landscape.
 /// @param board from its file; drawn as designed, whatever ruler length was measured since
 /// @throws Error if the board is larger than the paper, or not flat on the table, or the file
-/// cannot be
-///   written
+///   cannot be written
 void write_board_sheet(const MarkerBody& board, Paper paper, const std::string& path);
 
 /// The effector's faces with flaps, to cut out and fold.
