@@ -52,9 +52,8 @@ std::string too_little(const AnswersByLevel& answers) {
 std::string too_little_chosen(const AnswersByLevel& answers) {
   const auto [first, none, last] = totals(answers);
   if (none > 0 && first + last == 0)
-    return "no cube was ever chosen: a criterion beyond all levels shown explains that, whatever "
-           "the "
-           "sensitivity";
+    return "no cube was ever chosen: a criterion beyond all levels shown explains that, "
+           "whatever the sensitivity";
   return too_little(answers);
 }
 

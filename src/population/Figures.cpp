@@ -170,11 +170,11 @@ void run_alone(const ResolvedConfig& config, Responder& responder, std::uint64_t
 std::vector<std::optional<double>> figures_of_one(const ResolvedConfig& config,
                                                   Responder& responder, std::uint64_t seed,
                                                   std::span<const FigurePlace> places) {
-  FigureCollector fold;
+  FigureCollector collector;
   run_alone(config, responder, seed,
-            [&](const Event& event, const Changes& changes) { fold.add(event, changes); });
+            [&](const Event& event, const Changes& changes) { collector.add(event, changes); });
   std::vector<std::optional<double>> figures;
-  for (const FigurePlace& place : places) figures.push_back(fold.figure(place));
+  for (const FigurePlace& place : places) figures.push_back(collector.figure(place));
   return figures;
 }
 

@@ -127,7 +127,7 @@ TEST_F(ReportFolder, ThatIsAFileIsRefused) {
   EXPECT_THROW(refuse_foreign_folder(folder), Error);
 }
 
-TEST_F(ReportFolder, MadeBeforeIsWrittenAnewWithoutLeftovers) {
+TEST_F(ReportFolder, OverAnOlderOneLeavesNothingOfIt) {
   write_report(summary_with_everything(), folder);
   std::ofstream(folder / "notes.txt") << "mine";
   write_report(summarize({"x.db", {session(1, "a")}}, ""), folder);

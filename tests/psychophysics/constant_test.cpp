@@ -110,7 +110,7 @@ TEST(Constant, SeedsAndNamesHaveOrdersOfTheirOwn) {
   EXPECT_NE(first, presented({"b", config}, 1));
 }
 
-TEST(Constant, BlocksAreShuffledEachAnew) {
+TEST(Constant, EachBlockIsShuffledAgain) {
   const auto schedule =
       presented({"a", ConstantConfig{.levels = {1, 2, 3, 4, 5, 6, 7, 8}, .n_per_level = 20}}, 1);
   std::set<std::vector<double>> blocks;

@@ -164,7 +164,7 @@ TEST_F(SealedLog, LastPartThatIsCutIsNoticedByItsHeadOnly) {
 }
 
 // As someone would who knows how heft computes seals.
-TEST_F(SealedLog, SealsMadeAnewHaveAnotherHead) {
+TEST_F(SealedLog, RemadeSealsHaveAnotherHead) {
   const std::string head = LogReader(original_).head();
   change(cut(2, 1, 0) + "DELETE FROM seal;");
   SessionLog::reopen(copy_, 2).seal();

@@ -13,7 +13,7 @@ struct Pushes {
   double peak_lag_m = 0, deepest_m = 0;
 };
 
-Pushes told(const std::vector<CubeRow>& cubes, int attempt_index) {
+Pushes logged_pushes(const std::vector<CubeRow>& cubes, int attempt_index) {
   Pushes most;
   for (const CubeRow& cube : cubes) {
     EXPECT_EQ(cube.n_pushes > 0, cube.peak_lag_m && cube.max_push_displacement_m);
@@ -47,7 +47,7 @@ TEST(Pushes, AreReportedAsTheyWereShown) {
   for (const TrialRow& trial : stored.reader().trials(stored.id())) {
     if (trial.plan.task == "introduction") continue;  // newly shuffled cubes begin anew
     const auto frames = stored.reader().frames(stored.id(), trial.attempt_index);
-    const Pushes in_log = told(cubes, trial.attempt_index), on_screen = shown(frames);
+    const Pushes in_log = logged_pushes(cubes, trial.attempt_index), on_screen = shown(frames);
     EXPECT_EQ(in_log.peak_lag_m, on_screen.peak_lag_m);
     EXPECT_GT(in_log.deepest_m, 0.01);
     EXPECT_LE(in_log.deepest_m, on_screen.deepest_m);

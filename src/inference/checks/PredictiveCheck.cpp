@@ -232,7 +232,7 @@ class SimulatedStudy {
   SimulatedStudy(const MixedFit& fit, std::uint64_t seed, std::uint64_t number)
       : fit_(fit), stream_(seed, "predictive check", number), levels_(seed, "levels", number) {}
 
-  void meet_someone() {
+  void add_person() {
     const double rho = *fit_.correlation, z = stream_.normal();
     const double other = rho * z + std::sqrt(1 - rho * rho) * stream_.normal();
     person_ = {fit_.sensitivity->value * std::exp(*fit_.sd_log_sensitivity * z),
@@ -338,7 +338,7 @@ PredictedStudies simulate_studies(const MixedFit& fit, std::span<const PersonRun
       SimulatedStudy study(fit, seed, i);
       StudyTally tally(edges_g);
       for (std::size_t k = 0; k < people.size(); ++k) {
-        study.meet_someone();
+        study.add_person();
         for (std::size_t j = 0; j < people[k].staircases.size(); ++j)
           study.run(people[k].staircases[j], ended[k][j], tally);
         study.catch_trials(people[k].n_catch, tally);

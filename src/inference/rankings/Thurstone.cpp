@@ -52,7 +52,8 @@ double least_ratio(double n_people) {
   return quantile(chance, 0.025) / (n_people - 1);
 }
 
-struct Landscape {
+/// Of the log likelihood around a point, to second order.
+struct Expansion {
   double value = 0;
   Eigen::VectorXd slope;
   Eigen::MatrixXd information;
@@ -79,7 +80,7 @@ class Scale {
     if (n_by_order_.empty()) return;
     at_ = climb(Eigen::VectorXd::Zero(static_cast<Index>(stimuli_.size()) - 1), {});
     for (const auto& [order, n] : n_by_order_) by_order_[order] = part(order, at_);
-    best_ = landscape(at_);
+    best_ = expansion(at_);
   }
 
   int n_orders() const { return n_orders_; }
@@ -109,7 +110,7 @@ class Scale {
     Influences changes;
     double mean = 0;
     for (const auto& [person, orders] : people_) {
-      Landscape own{0, Eigen::VectorXd::Zero(at_.size()),
+      Expansion own{0, Eigen::VectorXd::Zero(at_.size()),
                     Eigen::MatrixXd::Zero(at_.size(), at_.size())};
       for (const auto& [order, n] : orders) add(own, by_order_.at(order), n);
       const auto others = (best_.information - own.information).eval().ldlt();
@@ -135,7 +136,7 @@ class Scale {
   }
 
   // Log probability of one order, with gradient and information.
-  Landscape part(const RankOrder& order, const Eigen::VectorXd& at) const {
+  Expansion part(const RankOrder& order, const Eigen::VectorXd& at) const {
     const auto n = static_cast<Index>(order.size());
     Eigen::VectorXd values(n);
     Eigen::MatrixXd where = Eigen::MatrixXd::Zero(n, at.size());  // the values are where * at
@@ -147,13 +148,13 @@ class Scale {
             -where.transpose() * found.hessian * where};
   }
 
-  Landscape landscape(const Eigen::VectorXd& at) const {
-    Landscape sum{0, Eigen::VectorXd::Zero(at.size()), Eigen::MatrixXd::Zero(at.size(), at.size())};
+  Expansion expansion(const Eigen::VectorXd& at) const {
+    Expansion sum{0, Eigen::VectorXd::Zero(at.size()), Eigen::MatrixXd::Zero(at.size(), at.size())};
     for (const auto& [order, n] : n_by_order_) add(sum, part(order, at), n);
     return sum;
   }
 
-  static void add(Landscape& sum, const Landscape& one, double n) {
+  static void add(Expansion& sum, const Expansion& one, double n) {
     sum.value += n * one.value;
     sum.slope += n * one.slope;
     sum.information += n * one.information;
@@ -163,7 +164,7 @@ class Scale {
   // empty: none
   Eigen::VectorXd climb(Eigen::VectorXd from, const Eigen::VectorXd& held) const {
     constexpr int most_steps = 100;
-    Landscape here = landscape(from);
+    Expansion here = expansion(from);
     for (int i = 0; i < most_steps; ++i) {
       const auto solver = here.information.ldlt();
       Eigen::VectorXd step = solver.solve(here.slope);
@@ -174,10 +175,10 @@ class Scale {
       const double gain = step.dot(here.slope);
       if (gain < 1e-12) break;
       double part_of_step = 1;
-      Landscape next = landscape(from + step);
+      Expansion next = expansion(from + step);
       while (next.value < here.value + 1e-4 * part_of_step * gain && part_of_step > 1e-9) {
         part_of_step /= 2;
-        next = landscape(from + part_of_step * step);
+        next = expansion(from + part_of_step * step);
       }
       from += part_of_step * step;
       here = std::move(next);
@@ -201,7 +202,7 @@ class Scale {
     Eigen::VectorXd at = at_;
     for (int i = 0; i < 50; ++i) {
       at = climb(at + (distance - along.dot(at)) * tangent, along);
-      const Landscape here = landscape(at);
+      const Expansion here = expansion(at);
       const double root =
           std::copysign(std::sqrt(2 * std::max(best_.value - here.value, 0.0)), fall);
       const double slope =  // of the profile
@@ -219,8 +220,8 @@ class Scale {
   std::map<RankOrder, int> n_by_order_;
   int n_orders_ = 0;
   Eigen::VectorXd at_;
-  Landscape best_;
-  std::map<RankOrder, Landscape> by_order_;  // part() of each order at the maximum
+  Expansion best_;
+  std::map<RankOrder, Expansion> by_order_;  // part() of each order at the maximum
 };
 
 using Ranked = std::map<double, std::set<std::string>>;  // who ranked a stimulus
