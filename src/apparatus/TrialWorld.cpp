@@ -87,33 +87,41 @@ void TrialWorld::note_view(const TargetSample& sample, ShownFrame& shown) {
 }
 
 void TrialWorld::note_contacts(const TargetSample& sample, ShownFrame& shown) {
-  const double t_s = sample.t_capture_s;
-  const bool was_interrupted = protocol_.gaps_end_contacts && t_s - last_s_ > longest_gap_s;
-  const Eigen::Vector3d& effector_m = sample.pose.position_m;
-  const double lag_m = (drive_->state().clone.pose.position_m - effector_m).norm();
   const std::vector<CubeContact>& touching = drive_->state().contacts;
   const auto hardest = std::ranges::max_element(
       touching, {}, [](const CubeContact& contact) { return contact.force_n.norm(); });
   if (hardest != touching.end()) shown.contact_slot = hardest->cube + 1;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    Contact& contact = contacts_[i];
-    const bool touched = std::ranges::any_of(
+    const bool is_touched = std::ranges::any_of(
         touching, [&](const CubeContact& c) { return c.cube == static_cast<int>(i); });
-    if (touched) {
-      contact.left_s.reset();
-      const bool begins = !contact.since_s;
-      if (begins) contact.from_m = effector_m;
-      contact.max_push_displacement_m =
-          std::max(contact.max_push_displacement_m, (effector_m - contact.from_m).norm());
-      contact.peak_lag_m = std::max(contact.peak_lag_m, lag_m);
-      if (!begins) continue;
-      contact.since_s = t_s;
-      shown.events.push_back({log_time(t_s), CubeTouch{slot_of(i)}});
-    } else if (contact.since_s) {
-      if (!contact.left_s) contact.left_s = was_interrupted ? last_s_ : t_s;
-      if (t_s - *contact.left_s >= push_gap_s) end_contact(i, *contact.left_s, t_s, shown.events);
-    }
+    if (is_touched)
+      touch(i, sample, shown.events);
+    else if (contacts_[i].since_s)
+      leave(i, sample.t_capture_s, shown.events);
   }
+}
+
+void TrialWorld::touch(std::size_t cube, const TargetSample& sample, std::vector<Event>& events) {
+  Contact& contact = contacts_[cube];
+  const Eigen::Vector3d& effector_m = sample.pose.position_m;
+  const double lag_m = (drive_->state().clone.pose.position_m - effector_m).norm();
+  contact.left_s.reset();
+  const bool begins = !contact.since_s;
+  if (begins) contact.from_m = effector_m;
+  contact.max_push_displacement_m =
+      std::max(contact.max_push_displacement_m, (effector_m - contact.from_m).norm());
+  contact.peak_lag_m = std::max(contact.peak_lag_m, lag_m);
+  if (!begins) return;
+  contact.since_s = sample.t_capture_s;
+  events.push_back({log_time(sample.t_capture_s), CubeTouch{slot_of(cube)}});
+}
+
+// The cube was touched before and is not now.
+void TrialWorld::leave(std::size_t cube, double t_s, std::vector<Event>& events) {
+  Contact& contact = contacts_[cube];
+  const bool was_interrupted = protocol_.gaps_end_contacts && t_s - last_s_ > longest_gap_s;
+  if (!contact.left_s) contact.left_s = was_interrupted ? last_s_ : t_s;
+  if (t_s - *contact.left_s >= push_gap_s) end_contact(cube, *contact.left_s, t_s, events);
 }
 
 void TrialWorld::end_contact(std::size_t cube, double end_s, double now_s,

@@ -57,6 +57,8 @@ class TrialWorld {
   bool clear_of_all(const Pose& effector) const;
   void note_view(const TargetSample& sample, ShownFrame& shown);
   void note_contacts(const TargetSample& sample, ShownFrame& shown);
+  void touch(std::size_t cube, const TargetSample& sample, std::vector<Event>& events);
+  void leave(std::size_t cube, double t_s, std::vector<Event>& events);
   void return_cubes(double t_s, ShownFrame& shown);
   bool go_back_together() const;
   bool is_out(std::size_t cube) const {
