@@ -93,22 +93,10 @@ const WorldState& Drive::advance(const TargetSample& measured) {
   check(measured);
   TargetSample sample = measured;
   if (sample.tracked) sample.pose = predicted(measured, input_.predict_s);
-  if (!started_) {
+  if (started_)
+    follow(sample);
+  else
     start(sample);
-  } else {
-    const double dt_s = sample.t_capture_s - last_.t_capture_s;
-    if (!(dt_s > 0)) {
-      throw Error(fmt::format("the effector sample at {} s is not later than the last one at {} s",
-                              sample.t_capture_s, last_.t_capture_s));
-    }
-    const bool continues = sample.tracked && last_.tracked && !sample.jump && dt_s <= longest_gap_s;
-    if (!continues) set_solid(false);
-    run(continues ? end_of_path(sample) : last_.pose, dt_s,
-        continues ? std::optional(sample.velocity) : std::nullopt);
-    if (sample.tracked && !continues) simulator_->teleport_clone(sample.pose, sample.velocity);
-    mean_velocity_.reset();
-    if (continues) mean_velocity_ = mean_velocity(last_.pose, sample.pose, dt_s);
-  }
   const Pose target = sample.tracked ? sample.pose : last_.pose;
   last_ = sample;
   last_.pose = target;
@@ -122,6 +110,22 @@ void Drive::start(const TargetSample& sample) {
   last_.pose = out_of_the_way;
   simulator_->reset(scene_, sample.tracked ? sample.pose : out_of_the_way);
   set_solid(sample.tracked);
+}
+
+// Where the effector was lost or jumped, the clone is put at its new place without pushing.
+void Drive::follow(const TargetSample& sample) {
+  const double dt_s = sample.t_capture_s - last_.t_capture_s;
+  if (!(dt_s > 0)) {
+    throw Error(fmt::format("the effector sample at {} s is not later than the last one at {} s",
+                            sample.t_capture_s, last_.t_capture_s));
+  }
+  const bool continues = sample.tracked && last_.tracked && !sample.jump && dt_s <= longest_gap_s;
+  if (!continues) set_solid(false);
+  run(continues ? end_of_path(sample) : last_.pose, dt_s,
+      continues ? std::optional(sample.velocity) : std::nullopt);
+  if (sample.tracked && !continues) simulator_->teleport_clone(sample.pose, sample.velocity);
+  mean_velocity_.reset();
+  if (continues) mean_velocity_ = mean_velocity(last_.pose, sample.pose, dt_s);
 }
 
 // The target at the time of a sample that continues the last one.

@@ -57,6 +57,7 @@ class Drive {
 
  private:
   void start(const TargetSample& sample);
+  void follow(const TargetSample& sample);
   Pose end_of_path(const TargetSample& sample) const;
   void run(const Pose& target, double dt_s, const std::optional<Velocity>& at_target);
   void read_state();
