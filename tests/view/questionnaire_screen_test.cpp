@@ -261,6 +261,64 @@ TEST(QuestionnaireScreen, RangeOfNumberIsShown) {
               ::testing::Contains(::testing::Field(&TextLine::text, "0 – 1000")));
 }
 
+ScreenState number_trial() {
+  ScreenState trial = trial_state("judgment");
+  trial.n_slots = 1;
+  FormQuestion number;
+  number.kind = QuestionKind::number;
+  number.key = "value";
+  number.least = 0;
+  number.most = 1000;
+  trial.offer = Judgment::Offer{number};
+  return trial;
+}
+
+// With the cube in the scene.
+void add_cube(Form& form) {
+  form.screen.show(number_trial(), true);
+  form.draw();
+}
+
+TEST(QuestionnaireScreen, TypedNumberIsBesideItsRangeInLargeLetters) {
+  for (const Measures& window : {Measures{1024, 600, 2}, {1280, 720, 2}, {1024, 600}}) {
+    Form form(number_trial(), window);
+    add_cube(form);
+    const auto line = [&](const std::string& text) {
+      for (const TextLine& one : form.screen.page().lines)
+        if (one.text == text) return one;
+      ADD_FAILURE() << "no line: " << text;
+      return TextLine{};
+    };
+    const float empty_px = line("–").size_px;
+    for (const char* key : {"5", "1", "7"}) form.tap(std::string("value_key_") + key);
+    const TextLine number = line("517"), range = line("0 – 1000");
+    EXPECT_LE(number.x + form.typeface.width_px(number.text, number.size_px), range.x);
+    EXPECT_EQ(number.size_px, empty_px) << "it keeps its size while it is typed";
+    EXPECT_GE(range.size_px, Measures(window.width, window.height).body);
+  }
+}
+
+TEST(QuestionnaireScreen, SameDigitCountsTwiceWhenTypedQuickly) {
+  Form form(number_trial());
+  add_cube(form);
+  form.tap("value_key_1");
+  form.tap("value_key_0");
+  const auto tap_again = [&](double after_s) {
+    const Rect area = form.control("value_key_0")->area;
+    const float x = area.x + area.width / 2, y = area.y + area.height / 2;
+    form.now_s += after_s;
+    form.screen.down(Taps::mouse, x, y, form.now_s);
+    form.screen.up(Taps::mouse, x, y, form.now_s);
+    form.draw();
+    return form.screen.page().lines;
+  };
+  const auto shows = [](const std::string& text) {
+    return ::testing::Contains(::testing::Field(&TextLine::text, text));
+  };
+  EXPECT_THAT(tap_again(0.03), shows("10")) << "a touch that bounces is one touch";
+  EXPECT_THAT(tap_again(0.15), shows("100"));
+}
+
 TEST(QuestionnaireScreen, KeyThatCannotLeadIntoTheRangeIsDisabled) {
   FormQuestion number;
   number.kind = QuestionKind::number;

@@ -147,13 +147,22 @@ void AskedQuestion::add_slider(const Rect& area) {
   }
 }
 
-// The typed number, and the range at the other end of its line.
+// The typed number, and the range at the other end of its line; both smaller where large texts
+// would meet.
 float AskedQuestion::add_typed(const Rect& area) {
   const Measures& m = builder.measures;
   const std::string range = fmt::format("{} – {}", question.least, question.most);
-  builder.page.lines.push_back({range, area.right() - builder.typeface.width_px(range, m.body),
-                                area.y + m.title - m.body, m.body, Tone::soft});
-  return builder.add_lines({given.empty() ? "–" : given}, area, area.y, m.title);
+  const auto width_px = [&](const std::string& text, float size_px) {
+    return builder.typeface.width_px(text, size_px);
+  };
+  const float number_px =
+      std::max(width_px(given, m.title), width_px(fmt::format("{}", question.most), m.title));
+  const float fits = (area.width - 2 * m.gap) / (number_px + width_px(range, m.body));
+  const float number_size = std::min(fits, 1.f) * m.title, size = std::min(fits, 1.f) * m.body;
+  builder.page.lines.push_back(
+      {range, area.right() - width_px(range, size), area.y + number_size - size, size, Tone::soft});
+  builder.add_lines({given.empty() ? "–" : given}, area, area.y, number_size);
+  return area.y + Typeface::line_height_px(m.title);
 }
 
 void AskedQuestion::add_keypad(const Rect& area) {

@@ -54,7 +54,10 @@ void TouchScreen::presented(double t_s) {
 
 bool TouchScreen::takes(const std::string& control, double t_s) const {
   if (!presented_ || t_s < live_from_s_) return false;
-  return !tapped_ || tapped_->control != control || t_s >= tapped_->t_s + settle_s;
+  if (!tapped_ || tapped_->control != control) return true;
+  const Control* found = enabled_control(control);
+  const bool is_typing = found != nullptr && std::holds_alternative<Typed>(found->effect);
+  return t_s >= tapped_->t_s + (is_typing ? key_settle_s : settle_s);
 }
 
 bool TouchScreen::down(Taps::Pointer pointer, float x, float y, double t_s) {

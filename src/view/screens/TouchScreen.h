@@ -17,6 +17,9 @@ namespace heft {
 /// Taps are ignored for this long after a page, part or question has turned, and on a control that
 /// was just tapped. The taps of a double tap are at most 0.6 s apart.
 inline constexpr double settle_s = 0.7;
+/// Keys of a number being typed count again after this time, so that 100 can be typed quickly.
+/// Longer than the bounce of a touch screen, shorter than the fastest double tap.
+inline constexpr double key_settle_s = 0.1;
 
 class TouchScreen {
  public:
