@@ -143,7 +143,12 @@ TEST(Screens, ButtonTextsFitAtReadableSize) {
   });
 }
 
-// A larger answer would stand out.
+bool is_number_or_letter(const std::string& text) {
+  return text.find_first_not_of("0123456789") == std::string::npos ||
+         (text.size() == 1 && std::isalpha(static_cast<unsigned char>(text.front())) != 0);
+}
+
+// A larger answer would stand out. Letters and numbers of cubes are apart from answers in words.
 TEST(Screens, ButtonsOfOneSizeHaveLettersOfOneSize) {
   on_every_page([](const Fixture& fixture, const Page& page) {
     const auto words = words_on(page.controls, fixture.typeface, fixture.measures);
@@ -157,7 +162,8 @@ TEST(Screens, ButtonsOfOneSizeHaveLettersOfOneSize) {
         const Control& other = page.controls[j];
         if (!control.note.empty() || !other.note.empty() || control.text.empty() ||
             other.text.empty() || std::abs(control.area.width - other.area.width) > 0.1f ||
-            std::abs(control.area.height - other.area.height) > 0.1f)
+            std::abs(control.area.height - other.area.height) > 0.1f ||
+            is_number_or_letter(control.text) != is_number_or_letter(other.text))
           continue;
         EXPECT_EQ(words[i].text.size_px, words[j].text.size_px)
             << control.text << " and " << other.text;
@@ -292,6 +298,30 @@ TEST(Screens, CubesOtherThanThreeAreRanked) {
     EXPECT_EQ(given.slot, 2);
     EXPECT_EQ(given.label, Sorting::labels_for(n).back());
   }
+}
+
+TEST(Screens, LettersAndRanksOfManyCubesAreOfUsualSizeAmongLongWords) {
+  for (const float text_size : {1.f, 2.f})
+    for (const int n : {4, 5, 6}) {
+      Fixture fixture("fr", {1024, 600, text_size});
+      fixture.screens.show(sorting_state(n), true);
+      const Page page = fixture.page();
+      const auto words = words_on(page.controls, fixture.typeface, fixture.measures);
+      for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string& name = page.controls[i].name;
+        if (!name.starts_with("cube_") && !name.starts_with("label_")) continue;
+        EXPECT_GE(words[i].text.size_px, 0.99f * Measures(1024, 600).body) << name;
+      }
+    }
+}
+
+// In French a colon would need a space before it.
+TEST(Screens, EndsOfTheRanksAreInTheQuestion) {
+  Fixture fixture("fr", {1920, 1080});
+  fixture.screens.show(sorting_state(4), true);
+  std::string question;
+  for (const TextLine& line : fixture.page().lines) question += line.text + ' ';
+  EXPECT_THAT(question, ::testing::HasSubstr("1 = Le plus léger, 4 = Le plus lourd"));
 }
 
 TEST(Screens, AnswersAreDisabledBeforeTheyAreAllowed) {

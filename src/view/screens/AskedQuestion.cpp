@@ -96,7 +96,7 @@ float AskedQuestion::add_ends(const Rect& area) {
   const float most_px = std::min(ends_lines * m.body, area.height - rows_px);
   const bool numbered = question.kind == QuestionKind::likert && n_rows() > 1;
   const auto words_at = [&](int point, const std::string& words) {
-    return numbered ? fmt::format("{}: {}", point, words) : words;
+    return numbered ? fmt::format("{} = {}", point, words) : words;
   };
   const bool leftward = builder.typeface.reads_right_to_left();
   const Rect half{area.x, area.y, area.width / 2 - m.gap, 0};

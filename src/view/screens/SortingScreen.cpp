@@ -25,7 +25,7 @@ std::string sorting_question(const PageBuilder& builder) {
   const std::string question = builder.text("trial_sorting", "question");
   const auto labels = Sorting::labels_for(builder.state.n_slots);
   if (!is_rank(labels.front())) return question;
-  return fmt::format("{} {}: {}, {}: {}", question, labels.front(),
+  return fmt::format("{} {} = {}, {} = {}", question, labels.front(),
                      label_words(builder, "lightest"), labels.back(),
                      label_words(builder, "heaviest"));
 }

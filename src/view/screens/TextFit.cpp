@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "tasks/Task.h"
@@ -136,6 +137,15 @@ std::vector<std::string> texts_that_do_not_fit(const ScreenTexts& texts, const M
   return fit.found;
 }
 
+namespace {
+// A letter or a number: it fits anywhere, and small letters would make it illegible.
+bool is_letter_or_number(const std::string& text) {
+  const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+  return (text.size() == 1 && std::isalnum(static_cast<unsigned char>(text.front())) != 0) ||
+         (!text.empty() && std::ranges::all_of(text, is_digit));
+}
+}  // namespace
+
 ControlWords words_on(const Control& control, const Typeface& typeface, const Measures& measures) {
   const float pad = 0.07f * measures.target;
   Rect inside{control.area.x + pad, control.area.y + pad, control.area.width - 2 * pad,
@@ -165,8 +175,10 @@ std::vector<ControlWords> words_on(const std::vector<Control>& controls, const T
   for (std::size_t i = 0; i < all.size(); ++i) {
     FittedText& text = all[i].text;
     float size_px = text.size_px;
-    for (const ControlWords& other : all)
-      if (are_alike(other, all[i])) size_px = std::min(size_px, other.text.size_px);
+    for (std::size_t j = 0; j < all.size(); ++j)
+      if (are_alike(all[j], all[i]) &&
+          is_letter_or_number(controls[j].text) == is_letter_or_number(controls[i].text))
+        size_px = std::min(size_px, all[j].text.size_px);
     if (size_px < text.size_px)
       text = typeface.fitted(controls[i].text, size_px, all[i].text_area.width,
                              all[i].text_area.height, size_px);
