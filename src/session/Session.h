@@ -16,7 +16,7 @@ namespace heft {
 struct SessionRequest {
   ResolvedConfig config;
   std::string participant;
-  std::string db;
+  std::string db = {};
   Purpose purpose = Purpose::main;  ///< of a person's session
   /// Known facts about the participant: their place in a study.
   std::map<std::string, std::string> participant_info = {};

@@ -15,7 +15,7 @@ namespace heft {
 
 struct SimulationRequest {
   ResolvedConfig config;  ///< with the simulation's seed
-  std::string db;
+  std::string db = {};
   int participants = 1;  ///< of all shards together
   int jobs = 1;
   bool keep_frames = false;
