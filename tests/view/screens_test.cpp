@@ -202,6 +202,15 @@ TEST(Screens, LongConsentFillsItsPages) {
   EXPECT_GE(parts.front().size(), 4U);
 }
 
+TEST(Screens, NoPageHasOneLineOfTheParagraphThatItEnds) {
+  for (const std::string language : {"en", "fr"})
+    for (const Measures& window : {Measures(1024, 600, 2), Measures(1280, 720, 2)}) {
+      Fixture fixture(language, window);
+      const auto parts = parts_of(fixture, page_state(Screen::consent));
+      EXPECT_GE(parts.back().size(), 2U) << language << ' ' << window.width;
+    }
+}
+
 // Given labels must be legible at arm's length, because they are validated.
 TEST(Screens, GivenLabelsAreInOneLineOfUsualSize) {
   int n_notes = 0;

@@ -25,8 +25,19 @@ Lines joined(Lines part, const Lines& paragraph) {
   return part;
 }
 
+// The end of a divided paragraph takes lines of the part before it, because a line alone on a page
+// is hard to understand.
+void lengthen_end(Lines& before, Lines& end) {
+  constexpr std::size_t fewest_lines = 3;
+  while (end.size() < fewest_lines && before.size() > fewest_lines && !before.back().empty()) {
+    end.insert(end.begin(), std::move(before.back()));
+    before.pop_back();
+  }
+}
+
 // Divides a paragraph that is longer than a part.
 void add_divided(std::vector<Lines>& parts, const Lines& paragraph, const Fits& fits) {
+  const std::size_t n_before = parts.size();
   bool is_first = true;
   for (const std::string& line : paragraph) {
     Lines longer = parts.back();
@@ -37,6 +48,7 @@ void add_divided(std::vector<Lines>& parts, const Lines& paragraph, const Fits& 
     else
       parts.push_back({line});
   }
+  if (parts.size() > n_before) lengthen_end(parts[parts.size() - 2], parts.back());
 }
 
 // Divides lines into parts that fit, between paragraphs where possible.
