@@ -132,13 +132,15 @@ Rect place_of_flag(const PlacedMark& placed, float width, float height, float ti
   return flag;
 }
 
-// A flag with a label, its tip at the cube; only the tip without a label.
+// A flag with a label, its tip at the cube; without a label a larger tip alone. The outline keeps
+// it visible on white paper.
 void paint_mark(ImDrawList& list, const PlacedMark& placed, const Paint& paint,
                 std::vector<Rect>& flags) {
   const ImU32 fill = placed.mark.selected ? colors::accent : colors::flag;
-  const float size = paint.measures.small, tip = 0.55f * size;
-  list.AddTriangleFilled({placed.x - tip, placed.y - tip}, {placed.x + tip, placed.y - tip},
-                         {placed.x, placed.y}, fill);
+  const float size = paint.measures.small, tip = (placed.mark.text.empty() ? 1 : 0.55f) * size;
+  const ImVec2 left{placed.x - tip, placed.y - tip}, right{placed.x + tip, placed.y - tip};
+  list.AddTriangleFilled(left, right, {placed.x, placed.y}, fill);
+  list.AddTriangle(left, right, {placed.x, placed.y}, colors::on_accent, 0.12f * size);
   if (placed.mark.text.empty()) return;
   const float width = paint.typeface.width_px(placed.mark.text, size) + 1.2f * size;
   const float height = 1.7f * size;
