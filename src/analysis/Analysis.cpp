@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "analysis/measures/Section.h"
-#include "analysis/report/Hypotheses.h"
 #include "analysis/report/Notes.h"
 
 namespace heft {

@@ -10,7 +10,6 @@
 #include <tuple>
 
 #include "analysis/Analysis.h"
-#include "analysis/report/Hypotheses.h"
 #include "base/Parallel.h"
 #include "base/Random.h"
 #include "base/math/Quantiles.h"

@@ -13,7 +13,6 @@
 #include "SourceFolder.h"
 #include "analysis/Analysis.h"
 #include "analysis/dataset/Summary.h"
-#include "analysis/report/Hypotheses.h"
 #include "analysis/report/Notes.h"
 #include "inference/Coverage.h"
 #include "protocol/Protocol.h"

@@ -12,7 +12,6 @@
 #include "analysis/Folds.h"
 #include "analysis/charts/Charts.h"
 #include "analysis/dataset/Summary.h"
-#include "analysis/report/Hypotheses.h"
 #include "analysis/report/Notes.h"
 #include "inference/Coverage.h"
 

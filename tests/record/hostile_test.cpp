@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "record/file/LogFile.h"
-#include "record/file/ReadOnlyDatabase.h"
 #include "record/reader/LogReader.h"
 #include "record/rows.h"
 #include "record/temporary_folder.h"

@@ -1,5 +1,3 @@
-#include "analysis/report/Hypotheses.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -44,4 +44,8 @@ class NotesCollector {
   PictureCounts pictures_;
 };
 
+/// E1-H1...E1-H3 (sorting) and E2-H1, E2-H2 (JND), stated as in the paper.
+/// Each is declared or exploratory, as the summary's plan says.
+std::vector<Hypothesis> hypotheses_of(const Summary& summary);
+
 }  // namespace heft

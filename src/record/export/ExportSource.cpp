@@ -13,7 +13,6 @@
 #include "record/export/Export.h"
 #include "record/file/Failures.h"
 #include "record/file/LogFile.h"
-#include "record/file/ReadOnlyDatabase.h"
 
 namespace heft {
 

@@ -15,8 +15,6 @@
 #include "base/files/Printable.h"
 #include "base/files/TextFile.h"
 #include "record/file/Failures.h"
-#include "record/file/ReadOnlyDatabase.h"
-#include "record/file/Upgrade.h"
 #include "record/schema/Schema.h"
 
 namespace heft {

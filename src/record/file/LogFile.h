@@ -1,4 +1,5 @@
-// A log's database file opened for writing, with the writer's lock. Private to record.
+// A log's database file: opened for writing, with the writer's lock, or for reading. Private to
+// record.
 #pragma once
 
 #include <cstdint>
@@ -98,4 +99,23 @@ bool holds_log(SQLite::Database& database, const std::string& path);
 /// @throws Error: the file is no log
 [[noreturn]] void refuse_foreign_file(const std::string& path);
 
+/// How long a statement waits for another program's lock.
+inline constexpr int lock_timeout_ms = 5000;
+
+/// Disables triggers, views, functions in the schema, writes to the schema's tables and texts in
+/// double quotes for this connection. Call it before the first statement.
+/// @throws Error if this SQLite does not support it
+void distrust(SQLite::Database& database);
+
+/// @throws Error if the file is missing or cannot be read
+std::unique_ptr<SQLite::Database> open_for_reading(const std::string& path);
+
 }  // namespace heft
+
+namespace heft::schema {
+
+/// Upgrades an older log to the current version, in one transaction. Digests do not change.
+/// @throws Error (diverged) naming an unknown object; SQLite::Exception
+void upgrade(SQLite::Database& database);
+
+}  // namespace heft::schema

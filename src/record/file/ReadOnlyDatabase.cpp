@@ -1,5 +1,5 @@
-#include "record/file/ReadOnlyDatabase.h"
-
+// Opening a log for reading: next to a running writer, after a crash, or on a read-only medium. The
+// file may come from anyone, so nothing in it may be executed.
 #include <SQLiteCpp/Backup.h>
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
@@ -12,7 +12,6 @@
 #include "base/Error.h"
 #include "record/file/Failures.h"
 #include "record/file/LogFile.h"
-#include "record/file/Upgrade.h"
 #include "record/schema/Schema.h"
 
 namespace heft {

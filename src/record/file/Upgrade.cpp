@@ -1,10 +1,11 @@
-#include "record/file/Upgrade.h"
-
+// Upgrades logs of versions 5 to 8. Digests are taken over values, not over names of columns, so
+// they stay valid.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
 
 #include "base/Error.h"
+#include "record/file/LogFile.h"
 #include "record/integrity/Seals.h"
 #include "record/schema/RowSql.h"
 #include "record/schema/Schema.h"

@@ -10,7 +10,6 @@
 #include "base/Error.h"
 #include "record/file/Failures.h"
 #include "record/file/LogFile.h"
-#include "record/file/ReadOnlyDatabase.h"
 #include "record/integrity/Seals.h"
 #include "record/schema/Binding.h"
 #include "record/schema/Cells.h"

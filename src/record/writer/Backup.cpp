@@ -16,7 +16,7 @@
 #include "base/Error.h"
 #include "base/files/TextFile.h"
 #include "record/file/Failures.h"
-#include "record/file/ReadOnlyDatabase.h"
+#include "record/file/LogFile.h"
 #include "record/reader/LogReader.h"
 
 namespace heft {

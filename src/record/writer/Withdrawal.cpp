@@ -9,7 +9,6 @@
 #include "base/files/TextFile.h"
 #include "record/file/Failures.h"
 #include "record/file/LogFile.h"
-#include "record/file/ReadOnlyDatabase.h"
 #include "record/integrity/Seals.h"
 #include "record/reader/LogReader.h"
 #include "record/schema/Binding.h"
