@@ -46,18 +46,21 @@ struct Design {
 };
 
 // Those of a study plan are its groups, those with the same protocol together.
-std::vector<Design> designs_of(const PowerOptions& options) {
-  if (recognized_kind(read_text_file(options.file), options.file) != FileKind::study)
-    return {{options.file,
-             options.participants.empty() ? std::vector{8, 13, 20} : options.participants}};
-  const StudyPlan plan = load_study(options.file);
+std::vector<Design> planned_designs(const std::string& file) {
+  if (recognized_kind(read_text_file(file), file) != FileKind::study) return {{file, {8, 13, 20}}};
+  const StudyPlan plan = load_study(file);
   std::map<std::string, int> planned;
   for (int number = 1; number <= plan.participants; ++number)
     ++planned[plan.groups[static_cast<std::size_t>(place_in(plan, number).group)].protocol];
   std::vector<Design> designs;
-  for (const auto& [protocol, n] : planned)
-    designs.push_back(
-        {protocol, options.participants.empty() ? std::vector{n} : options.participants});
+  for (const auto& [protocol, n] : planned) designs.push_back({protocol, {n}});
+  return designs;
+}
+
+std::vector<Design> designs_of(const PowerOptions& options) {
+  std::vector<Design> designs = planned_designs(options.file);
+  if (!options.participants.empty())
+    for (Design& design : designs) design.participants = options.participants;
   return designs;
 }
 
