@@ -30,7 +30,7 @@ RecordedSession simulated_session() {
   return session;
 }
 
-// The session with changed or omitted entries, logged anew so that its digests are valid.
+// The session with changed or omitted entries, logged again so that its digests are valid.
 using Forge = std::function<bool(RecordedEntry&)>;
 RecordedSession forged(const RecordedSession& session, const Forge& keeps) {
   RecordedSession copy(session.header());
