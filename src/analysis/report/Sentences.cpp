@@ -1,8 +1,6 @@
 // The findings and their limits as sentences, for the first screen and the top of the report.
 #include <fmt/format.h>
 
-#include <cctype>
-
 #include "analysis/measures/Section.h"
 #include "analysis/report/Notes.h"
 
@@ -23,7 +21,6 @@ std::string limits_sentence(const Summary& summary) {
         "not measure perception alone";
   return text + ".";
 }
-
 }  // namespace
 
 std::string inconclusive_sentence(const Summary& summary) {

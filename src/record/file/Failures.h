@@ -3,11 +3,9 @@
 #pragma once
 
 #include <exception>
-#include <optional>
 #include <string>
 
 #include "base/Error.h"
-#include "experiment/Event.h"
 
 namespace SQLite {
 class Database;

@@ -199,12 +199,18 @@ Event event_of(const EventRow& row) {
   return {row.t_s, std::move(what)};
 }
 
+namespace {
+// " cube 2 heaviest"
+std::string cube_text(const std::optional<int>& slot, const std::optional<Label>& label) {
+  return (slot ? fmt::format(" cube {}", *slot) : "") +
+         (label ? fmt::format(" {}", name_of(*label)) : "");
+}
+}  // namespace
+
 std::string text_of(const Event& event) {
   const EventRow row = row_of(event);
-  std::string text = fmt::format("{} \"{}\"", name_of(row.kind), row.detail);
-  if (row.slot) text += fmt::format(" cube {}", *row.slot);
-  if (row.label) text += fmt::format(" {}", name_of(*row.label));
-  text += fmt::format(" at {} s", row.t_s);
+  std::string text = fmt::format("{} \"{}\"{} at {} s", name_of(row.kind), row.detail,
+                                 cube_text(row.slot, row.label), row.t_s);
   const bool is_number = event.is<Action, ActionRefused>();
   if (row.value) text += fmt::format(", {}{}", *row.value, is_number ? "" : " s");
   if (row.max_push_displacement_m && row.peak_lag_m)
@@ -213,18 +219,10 @@ std::string text_of(const Event& event) {
   return text;
 }
 
-namespace {
-std::string action_text(const Action& action) {
-  std::string text(name_of(action.kind));
-  if (action.slot) text += fmt::format(" cube {}", *action.slot);
-  if (action.label) text += fmt::format(" {}", name_of(*action.label));
-  return text;
-}
-}  // namespace
-
 std::string description(const Event& event, std::optional<int> trial_number) {
   const auto* action = event.as<Action>();
-  const std::string text = action ? fmt::format("the answer \"{}\"", action_text(*action))
+  const std::string text = action ? fmt::format("the answer \"{}{}\"", name_of(action->kind),
+                                                cube_text(action->slot, action->label))
                                   : fmt::format("the event \"{}\"", name_of(event.kind()));
   return trial_number ? fmt::format("{} of trial {}", text, *trial_number) : text;
 }
