@@ -4,6 +4,23 @@
 
 namespace heft {
 
+Eigen::Vector3d Pose::operator*(const Eigen::Vector3d& point_m) const {
+  return position_m + orientation * point_m;
+}
+
+Pose Pose::operator*(const Pose& then) const {
+  return {*this * then.position_m, orientation * then.orientation};
+}
+
+Pose Pose::inverse() const {
+  const Eigen::Quaterniond back = orientation.conjugate();
+  return {-(back * position_m), back};
+}
+
+Pose upright_pose(const Eigen::Vector3d& position_m, double yaw_rad) {
+  return {position_m, Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()))};
+}
+
 Pose interpolate(const Pose& from, const Pose& to, double s) {
   return {from.position_m + s * (to.position_m - from.position_m),
           from.orientation.slerp(s, to.orientation)};

@@ -11,24 +11,15 @@ struct Pose {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 
-  Eigen::Vector3d operator*(const Eigen::Vector3d& point_m) const {
-    return position_m + orientation * point_m;
-  }
+  Eigen::Vector3d operator*(const Eigen::Vector3d& point_m) const;
   /// a_from_c = a_from_b * b_from_c
-  Pose operator*(const Pose& then) const {
-    return {*this * then.position_m, orientation * then.orientation};
-  }
+  Pose operator*(const Pose& then) const;
   /// source_from_target
-  Pose inverse() const {
-    const Eigen::Quaterniond back = orientation.conjugate();
-    return {-(back * position_m), back};
-  }
+  Pose inverse() const;
 };
 
 /// A pose at that position, turned by yaw_rad about the vertical axis.
-inline Pose upright_pose(const Eigen::Vector3d& position_m, double yaw_rad) {
-  return {position_m, Eigen::Quaterniond(Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()))};
-}
+Pose upright_pose(const Eigen::Vector3d& position_m, double yaw_rad);
 
 /// Linear and angular velocity in the world frame.
 struct Velocity {

@@ -28,6 +28,9 @@ Engine::Engine(std::shared_ptr<const SessionPlan> plan, std::uint64_t seed)
   next_ = what_next();
 }
 
+AdmittedEvent::AdmittedEvent(Event event, int n_events)
+    : event_(std::move(event)), n_events_(n_events) {}
+
 Admission Engine::admit(Event event) const {
   if (auto why = refusal(event)) return {std::nullopt, std::move(*why)};
   return {AdmittedEvent(std::move(event), n_events_), {}};

@@ -43,7 +43,7 @@ class AdmittedEvent {
 
  private:
   friend class Engine;
-  AdmittedEvent(Event event, int n_events) : event_(std::move(event)), n_events_(n_events) {}
+  AdmittedEvent(Event event, int n_events);
   Event event_;
   int n_events_;
 };

@@ -198,7 +198,7 @@ bool AnalysisPlan::declares_any() const {
 }
 
 Protocol parse_protocol(const std::string& text, const std::string& file,
-                        const std::vector<ProtocolSetting>& settings) {
+                        std::span<const ProtocolSetting> settings) {
   Mistakes mistakes(file);
   TomlTable root = parse_toml(text, file);
   apply_settings(root, settings);
@@ -274,7 +274,7 @@ Scene scene_of(const Protocol& protocol, const std::string& technique,
   return scene;
 }
 
-Protocol load_protocol(const std::string& path, const std::vector<ProtocolSetting>& settings) {
+Protocol load_protocol(const std::string& path, std::span<const ProtocolSetting> settings) {
   Protocol protocol = parse_protocol(read_text_file(path), path, settings);
   protocol.name = std::filesystem::path(path).stem().string();
   return protocol;

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -110,10 +111,10 @@ Scene scene_of(const Protocol& protocol, const std::string& technique,
 /// @param settings changes to it
 /// @throws InvalidFile with every mistake at its line and column; Error for an unusable setting
 Protocol parse_protocol(const std::string& text, const std::string& file,
-                        const std::vector<ProtocolSetting>& settings = {});
+                        std::span<const ProtocolSetting> settings = {});
 
 /// @throws Error if the file cannot be read, InvalidFile as parse_protocol
-Protocol load_protocol(const std::string& path, const std::vector<ProtocolSetting>& settings = {});
+Protocol load_protocol(const std::string& path, std::span<const ProtocolSetting> settings = {});
 
 using TrialsByTask = std::map<std::string, double>;
 

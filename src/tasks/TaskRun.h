@@ -24,25 +24,12 @@ struct TrialKey {
   int attempt = 1;
 
   /// For the arrangement of the cubes, drawn again in each attempt.
-  RandomStream slots() const {
-    return RandomStream(seed, "slots", static_cast<std::uint64_t>(trial_number),
-                        static_cast<std::uint64_t>(attempt));
-  }
+  RandomStream slots() const;
   /// For draws that all attempts of a trial share.
-  RandomStream trial(std::string_view purpose) const {
-    return RandomStream(seed, purpose, static_cast<std::uint64_t>(trial_number));
-  }
+  RandomStream trial(std::string_view purpose) const;
 
   TrialPlan plan(const std::string& block, std::string_view task,
-                 const std::string& condition) const {
-    TrialPlan plan;
-    plan.trial_number = trial_number;
-    plan.attempt = attempt;
-    plan.block = block;
-    plan.task = Task(task);
-    plan.condition = condition;
-    return plan;
-  }
+                 const std::string& condition) const;
 };
 
 class PageBuilder;
@@ -87,15 +74,9 @@ class TaskTrial {
   }
 
  protected:
-  bool is_heaviest(int slot) const {
-    return plan_.masses_g[static_cast<std::size_t>(slot - 1)] == std::ranges::max(plan_.masses_g);
-  }
+  bool is_heaviest(int slot) const;
   /// Sets the chosen slot, and whether it is the heaviest unless all masses are equal.
-  void choose(int slot) {
-    result_.chosen_slot = slot;
-    if (std::ranges::min(plan_.masses_g) < std::ranges::max(plan_.masses_g))
-      result_.choice_correct = is_heaviest(slot);
-  }
+  void choose(int slot);
 
   TrialPlan plan_;
   TrialResult result_;

@@ -1,7 +1,6 @@
 #include "tasks/Tasks.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "base/Names.h"
 
@@ -98,19 +97,6 @@ std::vector<ScreenState> fullest_screens(std::string_view task) {
   std::vector<ScreenState> screens;
   Tasks::call(task, [&]<typename Kind>() { screens = Kind::fullest_screens(); });
   return screens;
-}
-
-int heaviest_slot(std::span<const double> values, std::span<const int> wrong_slots) {
-  const auto ruled_out = wrong_slots.last(std::min(wrong_slots.size(), values.size() - 1));
-  int best_slot = 0;
-  double best = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const int slot = static_cast<int>(i) + 1;
-    if (std::ranges::find(ruled_out, slot) != ruled_out.end() || values[i] <= best) continue;
-    best_slot = slot;
-    best = values[i];
-  }
-  return best_slot;
 }
 
 }  // namespace heft

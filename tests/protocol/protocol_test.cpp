@@ -33,7 +33,8 @@ TEST(Protocol, ChoosesHowTheEffectorMovesBetweenPictures) {
   EXPECT_EQ(over_video.predict_s, 0);
   const DriveInput see_through =
       parse_protocol(text, "x.toml",
-                     {{"physics.input", "extrapolate"}, {"physics.predict_s", "0.05"}})
+                     std::vector<ProtocolSetting>{{"physics.input", "extrapolate"},
+                                                  {"physics.predict_s", "0.05"}})
           .simulator.input;
   EXPECT_EQ(see_through.mode, InputMode::extrapolate);
   EXPECT_EQ(see_through.predict_s, 0.05);

@@ -66,7 +66,8 @@ TEST(Study, WithoutGroupsAndOrdersHasTheProtocolsOrder) {
 TEST(Study, ItsProtocolTakesTheOrder) {
   const StudyPlan plan = parse_study(study(two_blocks), "lab/STUDY.toml");
   for (const BlockOrder& order : plan.orders) {
-    const Protocol protocol = load_protocol(protocols + "paper.toml", {order_setting(order)});
+    const Protocol protocol =
+        load_protocol(protocols + "paper.toml", std::vector<ProtocolSetting>{order_setting(order)});
     BlockOrder found;
     for (const Block& block : protocol.blocks) {
       const std::string name = block_name(block);
@@ -206,7 +207,7 @@ TEST(BrokenStudy, AnUnreadableProtocolIsReportedAtItsPlace) {
 TEST(BlockOrder, OfAProtocolNamesItsBlocks) {
   const auto refused = [](const std::string& order) -> std::string {
     try {
-      load_protocol(protocols + "paper.toml", {{"block_order", order}});
+      load_protocol(protocols + "paper.toml", std::vector<ProtocolSetting>{{"block_order", order}});
     } catch (const InvalidFile& error) {
       return error.what();
     }

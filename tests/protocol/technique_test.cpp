@@ -140,9 +140,10 @@ TEST(Techniques, DisplacementsArePassedToTheScene) {
 }
 
 TEST(Techniques, AreChangedBySettings) {
-  const Protocol protocol = parse_protocol(
-      displacing, "techniques.toml",
-      {{"technique.ratio.gain_of_mass", "[[100, 0.5]]"}, {"technique.slow.return_s", "0.3"}});
+  const Protocol protocol =
+      parse_protocol(displacing, "techniques.toml",
+                     std::vector<ProtocolSetting>{{"technique.ratio.gain_of_mass", "[[100, 0.5]]"},
+                                                  {"technique.slow.return_s", "0.3"}});
   EXPECT_DOUBLE_EQ(std::get<Gain>(*scene_of(protocol, "ratio", {15}).displacement).of_mass.at(0.8),
                    0.5);
   EXPECT_DOUBLE_EQ(std::get<SpeedLimit>(*scene_of(protocol, "slow", {15}).displacement).return_s,

@@ -187,8 +187,9 @@ TEST_F(Replay, WhatAnotherPredictionWouldHaveShown) {
   const LogReader reader(path.string());
   const auto session = load_session(reader, path.string(), reader.sessions().front().session_id);
   const auto clone_rms_m = [&](double predict_s) {
-    const Protocol other =
-        parse_protocol(protocol.text, "quick", {{"physics.predict_s", std::to_string(predict_s)}});
+    const Protocol other = parse_protocol(
+        protocol.text, "quick",
+        std::vector<ProtocolSetting>{{"physics.predict_s", std::to_string(predict_s)}});
     double largest_m = 0;
     for (const PathDifference& difference : compare_paths(reader, session, other))
       largest_m = std::max(largest_m, difference.clone_rms_m);

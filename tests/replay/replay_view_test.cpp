@@ -71,8 +71,9 @@ TEST(ReplayViewOptions, EachFrameSaysItsTrialMassesTimeAndAnswers) {
 TEST(ReplayViewOptions, AWhatIfsCloneStandsBesideTheLoggedOne) {
   const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
   const auto header = stored.session().row.header;
-  const Protocol stiffer = parse_protocol(header.protocol_text, header.protocol_name,
-                                          {{"coupling.stiffness_n_per_m", "200"}});
+  const Protocol stiffer =
+      parse_protocol(header.protocol_text, header.protocol_name,
+                     std::vector<ProtocolSetting>{{"coupling.stiffness_n_per_m", "200"}});
   Onlooker same, other;
   show_session(stored.reader(), stored.session(), same, {stored.session().protocol.get()});
   show_session(stored.reader(), stored.session(), other, {&stiffer});

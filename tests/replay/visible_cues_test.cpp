@@ -94,8 +94,9 @@ TEST(VisibleCues, ACubePutBackHasNotGoneThere) {
 TEST(VisibleCues, AWhatIfShowsLagsBeforeAndAfter) {
   const StoredSession stored(shipped_protocol("quick"), "simulated", 5);
   const auto header = stored.session().row.header;
-  const Protocol stiffer = parse_protocol(header.protocol_text, header.protocol_name,
-                                          {{"coupling.stiffness_n_per_m", "100"}});
+  const Protocol stiffer =
+      parse_protocol(header.protocol_text, header.protocol_name,
+                     std::vector<ProtocolSetting>{{"coupling.stiffness_n_per_m", "100"}});
   bool compared = false;
   for (const PathDifference& kind : compare_paths(stored.reader(), stored.session(), stiffer))
     for (const CueDifference& cube : kind.cues) {

@@ -77,8 +77,8 @@ class Day : public ::testing::Test {
  protected:
   Day() {
     if (!std::getenv("DISPLAY")) setenv("SDL_VIDEODRIVER", "offscreen", 1);
-    Protocol paper =
-        load_protocol(source_folder() + "/protocols/paper.toml", {{"display_rate_hz", "30"}});
+    Protocol paper = load_protocol(source_folder() + "/protocols/paper.toml",
+                                   std::vector<ProtocolSetting>{{"display_rate_hz", "30"}});
     protocol = std::make_shared<const Protocol>(std::move(paper));
     ViewSetup setup;
     setup.stage = stage_of(*protocol, 3);

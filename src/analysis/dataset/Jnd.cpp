@@ -263,6 +263,12 @@ std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
   return names;
 }
 
+const Jnds& ReferenceJnd::as_published() const {
+  return starts ? starts->from_above_g : overall;
+}
+
+StaircaseCollector::StaircaseCollector(std::string_view task) : task_(task) {}
+
 void StaircaseCollector::add_starts(const std::string& participant,
                                     std::span<const StaircaseResult> of_session) {
   std::map<Compared, Results> by_compared;

@@ -125,7 +125,7 @@ struct ReferenceJnd {
   const published::Figure* published = nullptr;
 
   /// Staircases that began as the paper's did, from above.
-  const Jnds& as_published() const { return starts ? starts->from_above_g : overall; }
+  const Jnds& as_published() const;
 };
 
 /// Names of a protocol's staircases whose kind estimates nothing; empty if the text is no protocol.
@@ -134,7 +134,7 @@ std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
 /// Collects the sessions' staircases of one task.
 class StaircaseCollector {
  public:
-  explicit StaircaseCollector(std::string_view task = "comparison") : task_(task) {}
+  explicit StaircaseCollector(std::string_view task = "comparison");
   void add(const SessionData& data);
 
   /// Finished staircases in the order of sessions and estimates, each with the reference of its

@@ -68,7 +68,7 @@ struct Summary {
   std::optional<AnalysisPlan> plan;
   Estimates estimates;  ///< over participants, in the order of the sections
   std::vector<std::shared_ptr<const Section>> sections;  ///< they have estimates by participant
-  std::shared_ptr<const SharedCollectors> shared = std::make_shared<SharedCollectors>();
+  std::shared_ptr<const SharedCollectors> shared;        ///< never null
   Quality quality;
   ParticipantFlow flow;
   std::vector<SessionTracks> all_tracks;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/Pose.h"
@@ -9,6 +10,16 @@
 #include "physics/DecouplingSimulator.h"
 
 namespace heft {
+
+double MassCurve::at(double mass_kg) const {
+  const auto above = std::ranges::upper_bound(points_, mass_kg, {}, &Point::mass_kg);
+  if (above == points_.begin()) return above->value;
+  const Point& below = *std::prev(above);
+  if (above == points_.end()) return below.value;
+  const double fraction =
+      std::log(mass_kg / below.mass_kg) / std::log(above->mass_kg / below.mass_kg);
+  return std::lerp(below.value, above->value, fraction);
+}
 
 std::string displacement_text(std::string_view name, const MassCurve& curve, std::string_view unit,
                               double return_s) {

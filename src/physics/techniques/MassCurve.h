@@ -1,8 +1,6 @@
 // A parameter of a technique as a function of mass.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,15 +20,7 @@ class MassCurve {
 
   const std::vector<Point>& points() const { return points_; }
 
-  double at(double mass_kg) const {
-    const auto above = std::ranges::upper_bound(points_, mass_kg, {}, &Point::mass_kg);
-    if (above == points_.begin()) return above->value;
-    const Point& below = *std::prev(above);
-    if (above == points_.end()) return below.value;
-    const double fraction =
-        std::log(mass_kg / below.mass_kg) / std::log(above->mass_kg / below.mass_kg);
-    return std::lerp(below.value, above->value, fraction);
-  }
+  double at(double mass_kg) const;
 
  private:
   std::vector<Point> points_ = std::vector<Point>(1);

@@ -61,7 +61,7 @@ void read_block_order(TableReader& protocol, std::vector<Block>& blocks);
 /// "block.sorting.trials=4" (a table of an array is named by its `name` or kind). Values are
 /// written as in TOML. Unknown keys are added, for the file's reader to report.
 /// @throws Error (usage) for a setting without "=", with an invalid value, or for a missing table
-void apply_settings(TomlTable& root, const std::vector<ProtocolSetting>& settings);
+void apply_settings(TomlTable& root, std::span<const ProtocolSetting> settings);
 
 /// The settings of a staircase, perhaps with mistakes.
 struct StaircaseSettings {

@@ -87,7 +87,7 @@ void apply(TomlTable& root, const ProtocolSetting& setting) {
 
 }  // namespace
 
-void apply_settings(TomlTable& root, const std::vector<ProtocolSetting>& settings) {
+void apply_settings(TomlTable& root, std::span<const ProtocolSetting> settings) {
   for (const ProtocolSetting& setting : settings) apply(root, setting);
 }
 

@@ -58,13 +58,9 @@ class RecordedSession final : public EventSink {
  public:
   explicit RecordedSession(SessionHeader header) : header_(std::move(header)) {}
 
-  void append(const Event& event, const Changes& changes, Durability) override {
-    entries_.push_back(RecordedEvent{event, changes});
-  }
-  void add_frame(const FrameRow& frame) override { entries_.push_back(frame); }
-  void add_info(const std::string& key, const std::string& value) override {
-    header_.participant_info[key] = value;
-  }
+  void append(const Event& event, const Changes& changes, Durability durability) override;
+  void add_frame(const FrameRow& frame) override;
+  void add_info(const std::string& key, const std::string& value) override;
   void flush() override {}
 
   const SessionHeader& header() const { return header_; }

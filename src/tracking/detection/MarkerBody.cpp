@@ -83,6 +83,18 @@ FaceFrame face_frame(const BoxShape& box, BoxFace face) {
   return {center_m, up.cross(outwards), up, {width_m, length}};
 }
 
+Eigen::Vector3d FaceFrame::normal() const {
+  return right.cross(up);
+}
+
+Eigen::Vector3d FaceFrame::at(const Eigen::Vector2d& point_m) const {
+  return center_m + point_m.x() * right + point_m.y() * up;
+}
+
+Eigen::Vector2d FaceFrame::flat(const Eigen::Vector3d& point_m) const {
+  return {(point_m - center_m).dot(right), (point_m - center_m).dot(up)};
+}
+
 std::vector<Eigen::Vector2d> FaceFrame::outline_m() const {
   const double x = size_m.x() / 2, y = size_m.y() / 2;
   if (cut_m <= 0) return {{-x, y}, {x, y}, {x, -y}, {-x, -y}};

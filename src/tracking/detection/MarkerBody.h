@@ -88,14 +88,10 @@ struct FaceFrame {
   Eigen::Vector2d size_m;               ///< along right and up
   double cut_m = 0;  ///< for a chamfered box's ends: both upper corners are cut by this length
 
-  Eigen::Vector3d normal() const { return right.cross(up); }  ///< outwards
-  Eigen::Vector3d at(const Eigen::Vector2d& point_m) const {
-    return center_m + point_m.x() * right + point_m.y() * up;
-  }
+  Eigen::Vector3d normal() const;  ///< outwards
+  Eigen::Vector3d at(const Eigen::Vector2d& point_m) const;
   /// Projection of a point onto the face, relative to its center.
-  Eigen::Vector2d flat(const Eigen::Vector3d& point_m) const {
-    return {(point_m - center_m).dot(right), (point_m - center_m).dot(up)};
-  }
+  Eigen::Vector2d flat(const Eigen::Vector3d& point_m) const;
   /// The face's corners relative to its center, clockwise as seen from outside, starting with the
   /// upper left one: four, or six for an end with cut corners.
   std::vector<Eigen::Vector2d> outline_m() const;

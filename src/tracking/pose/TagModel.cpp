@@ -1,6 +1,7 @@
 #include "tracking/pose/TagModel.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,6 +48,23 @@ Weights weights_at(double place, double blur_cells) {
 }
 
 }  // namespace
+
+TagPlane::TagPlane(const Pose& pose, const std::array<Eigen::Vector3d, 4>& c, int n_cells)
+    : corner_m(pose * c[0]),
+      right_m(pose.orientation * (c[1] - c[0]) / n_cells),
+      down_m(pose.orientation * (c[3] - c[0]) / n_cells) {
+  Eigen::Matrix3d sides;
+  sides << right_m, down_m, corner_m;
+  cell_of = sides.inverse();
+}
+
+TagHit::TagHit(const TagPlane& plane, const Eigen::Vector2d& ray) {
+  const Eigen::Vector3d at_depth_1 = plane.cell_of.leftCols<2>() * ray + plane.cell_of.col(2);
+  const double depth_m = 1 / at_depth_1.z();
+  cell = depth_m * at_depth_1.head<2>();
+  cell_by_slant = plane.cell_of.topLeftCorner<2, 2>() - cell * plane.cell_of.row(2).head<2>();
+  point_m = depth_m * ray.homogeneous();
+}
 
 TagModel::TagModel(const DenseTag& tag, const ToneCurve& curve)
     : seen_(*tag.seen),
