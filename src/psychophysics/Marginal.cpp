@@ -1,5 +1,6 @@
 #include "psychophysics/Marginal.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -61,14 +62,13 @@ void LogWeights::add(const std::vector<double>& log_likelihood) {
 
 void LogWeights::normalize() {
   constexpr double last_digit = -36;  // e^-36 is 2e-16
-  const double largest = *std::max_element(logs_.begin(), logs_.end());
-  double sum = 0;
-  for (std::size_t i = 0; i < logs_.size(); ++i) {
-    logs_[i] -= largest;
-    weights_[i] = logs_[i] > last_digit ? std::exp(logs_[i]) : 0;
-    sum += weights_[i];
-  }
-  for (double& weight : weights_) weight /= sum;
+  const auto n = static_cast<Eigen::Index>(logs_.size());
+  Eigen::Map<Eigen::ArrayXd> logs(logs_.data(), n), weights(weights_.data(), n);
+  const double largest = logs.maxCoeff();
+  logs -= largest;
+  weights = (logs > last_digit).select(logs.exp(), 0);
+  const double sum = weights.sum();
+  weights /= sum;
   log_scale_ += largest;
   log_sum_ = log_scale_ + std::log(sum);
 }

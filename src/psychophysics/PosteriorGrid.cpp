@@ -13,9 +13,8 @@ double times_log(double p) {
   return p > 0 ? p * std::log(p) : 0;
 }
 
-// Each level has its own sum, so that the compiler can add several levels at a time.
-void add_scaled(std::vector<double>& sums, double weight, const float* row) {
-  for (std::size_t x = 0; x < sums.size(); ++x) sums[x] += weight * static_cast<double>(row[x]);
+Eigen::ArrayXXd times_log(const Eigen::ArrayXXd& p) {
+  return (p > 0).select(p * p.log(), 0);
 }
 }  // namespace
 
@@ -37,30 +36,56 @@ std::shared_ptr<const LikelihoodTable> LikelihoodTable::shared(GridSpace space) 
   return made;
 }
 
+// What a point predicts, by level.
+struct LikelihoodTable::PointShares {
+  OutcomeShares inattentive{};
+  std::vector<OutcomeShares> attentive;
+
+  OutcomeShares mixed(std::size_t x) const {
+    OutcomeShares shares = inattentive;
+    for (std::size_t k = 0; k < shares.size(); ++k)
+      shares[k] += attention(inattentive) * attentive[x][k];
+    return shares;
+  }
+};
+
 LikelihoodTable::LikelihoodTable(GridSpace space)
-    : space_(std::move(space)), n_points_(space_.n_points()), n_nuisance_(1) {
+    : space_(std::move(space)), n_points_(space_.n_points()) {
+  order_points();
+  const std::size_t n_outcomes = space_.model.n_outcomes(), n_levels = space_.levels.size();
+  attentive_.reserve(n_points_ / n_alike_ * (n_outcomes - 1) * n_levels);
+  inattentive_.reserve(n_points_);
+  for (std::size_t i = 0; i < n_points_; ++i)
+    inattentive_.push_back(space_.model.inattentive(point(i)));
+  if (n_nuisance_ == 1) entropy_.reserve(n_points_ * n_levels);
+  visit_points(space_.levels, [&](std::size_t i, const PointShares& at) {
+    if (i % n_alike_ == 0)
+      for (std::size_t k = 1; k < n_outcomes; ++k)
+        for (const OutcomeShares& level : at.attentive)
+          attentive_.push_back(static_cast<float>(level[k]));
+    if (n_nuisance_ > 1) return;
+    for (std::size_t x = 0; x < n_levels; ++x) {
+      double entropy = 0;
+      for (const double p : at.mixed(x)) entropy -= times_log(p);
+      entropy_.push_back(static_cast<float>(entropy));
+    }
+  });
+}
+
+void LikelihoodTable::order_points() {
   std::size_t stride = 1;
-  for (const bool nuisance : {true, false})
+  bool alike = true;
+  for (const bool nuisance : {true, false}) {
     for (std::size_t i = n_parameters; i-- > 0;) {
       if (space_.is_nuisance[i] != nuisance) continue;
       stride_[i] = stride;
       stride *= space_.parameters[i].size();
-      if (nuisance) n_nuisance_ = stride;
+      alike = alike && i >= space_.model.n_attentive();
+      if (alike) n_alike_ = stride;
     }
-  const std::size_t n_outcomes = space_.model.n_outcomes();
-  n_rows_ = n_outcomes - (n_nuisance_ > 1 ? 1 : 0);
-  table_.resize(n_points_ * n_rows_ * space_.levels.size());
-  auto place = table_.begin();
-  visit_points(space_.levels, [&](std::size_t, const std::vector<OutcomeShares>& shares) {
-    for (std::size_t k = 1; k < n_outcomes; ++k)
-      for (const OutcomeShares& at_level : shares) *place++ = static_cast<float>(at_level[k]);
-    if (n_nuisance_ > 1) return;
-    for (const OutcomeShares& at_level : shares) {
-      double entropy = 0;
-      for (const double p : at_level) entropy -= times_log(p);
-      *place++ = static_cast<float>(entropy);
-    }
-  });
+    if (nuisance) n_nuisance_ = stride;
+    alike = alike && n_nuisance_ == 1;  // not beyond a group of nuisance parameters
+  }
 }
 
 ParameterValues LikelihoodTable::point(std::size_t i) const {
@@ -69,23 +94,17 @@ ParameterValues LikelihoodTable::point(std::size_t i) const {
   return values;
 }
 
-// Attentive shares are computed once for successive points that differ in guesses and lapses only.
 template <typename Visit>
 void LikelihoodTable::visit_points(const std::vector<double>& levels, const Visit& visit) const {
-  std::vector<OutcomeShares> attentive(levels.size()), shares(levels.size());
-  ParameterValues before{};
-  for (std::size_t i = 0; i < n_points_; ++i) {
-    const ParameterValues values = point(i);
-    if (i == 0 || !space_.model.same_when_attentive(values, before))
-      for (std::size_t x = 0; x < levels.size(); ++x)
-        attentive[x] = space_.model.attentive(values, levels[x]);
-    before = values;
-    const OutcomeShares fixed = space_.model.inattentive(values);
-    const double attention = 1 - fixed[0] - fixed[1] - fixed[2];
+  PointShares at{.attentive = std::vector<OutcomeShares>(levels.size())};
+  for (std::size_t alike = 0; alike < n_points_; alike += n_alike_) {
+    const ParameterValues values = point(alike);
     for (std::size_t x = 0; x < levels.size(); ++x)
-      for (std::size_t k = 0; k < fixed.size(); ++k)
-        shares[x][k] = fixed[k] + attention * attentive[x][k];
-    visit(i, shares);
+      at.attentive[x] = space_.model.attentive(values, levels[x]);
+    for (std::size_t i = alike; i < alike + n_alike_; ++i) {
+      at.inattentive = inattentive_[i];
+      visit(i, at);
+    }
   }
 }
 
@@ -99,10 +118,11 @@ std::shared_ptr<const std::vector<double>> LikelihoodTable::log_likelihood(
       return found->second;
   }
   auto log_likelihood = std::make_shared<std::vector<double>>(n_points_);
-  visit_points({level}, [&](std::size_t i, const std::vector<OutcomeShares>& shares) {
+  visit_points({level}, [&](std::size_t i, const PointShares& at) {
+    const OutcomeShares shares = at.mixed(0);
     double p = 0;
     for (std::size_t k = 0; k < outcomes.size(); ++k)
-      if (outcomes[k]) p += shares[0][k];
+      if (outcomes[k]) p += shares[k];
     (*log_likelihood)[i] = finite_log(p);
   });
   const std::lock_guard lock(kept_mutex_);
@@ -118,64 +138,77 @@ void PosteriorGrid::update(double level, const Response& response) {
   posterior_.add(*table_->log_likelihood(level, response));
 }
 
-std::vector<double> PosteriorGrid::expected_entropies() const {
-  std::vector<double> expected(table_->space().levels.size());
-  table_->n_nuisance() > 1 ? add_marginal(expected) : add_joint(expected);
-  return expected;
+Eigen::ArrayXd PosteriorGrid::expected_entropies() const {
+  return table_->n_nuisance() > 1 ? marginal_entropies() : joint_entropies();
+}
+
+// Total weight of some points, and that of their outcomes but the first: a row for each level.
+struct PosteriorGrid::Outcomes {
+  double total = 0;
+  Eigen::ArrayXXd others;
+
+  Eigen::ArrayXd entropy() const {
+    return -times_log(total - others.rowwise().sum()) - times_log(others).rowwise().sum();
+  }
+};
+
+PosteriorGrid::Outcomes PosteriorGrid::outcomes(std::size_t first, std::size_t n) const {
+  const std::size_t n_others = table_->space().model.n_outcomes() - 1;
+  Outcomes sums;
+  sums.others.setZero(static_cast<Eigen::Index>(table_->space().levels.size()),
+                      static_cast<Eigen::Index>(n_others));
+  OutcomeShares fixed{};
+  for (std::size_t alike = first; alike < first + n; alike += table_->n_alike()) {
+    double attentive = 0;
+    for (std::size_t i = alike; i < alike + table_->n_alike(); ++i) {
+      const double weight = weights()[i];
+      const OutcomeShares& shares = table_->inattentive(i);
+      sums.total += weight;
+      for (std::size_t k = 0; k < fixed.size(); ++k) fixed[k] += weight * shares[k];
+      attentive += weight * attention(shares);
+    }
+    if (attentive == 0) continue;
+    for (std::size_t k = 1; k <= n_others; ++k)
+      sums.others.col(static_cast<Eigen::Index>(k - 1)) +=
+          attentive * table_->attentive(alike, k).cast<double>();
+  }
+  for (std::size_t k = 1; k <= n_others; ++k)
+    sums.others.col(static_cast<Eigen::Index>(k - 1)) += fixed[k];
+  return sums;
 }
 
 // The entropy after a trial is the entropy before, minus the information in its outcome: the
 // entropy of the outcome, minus its expected entropy where the parameters are known.
-void PosteriorGrid::add_joint(std::vector<double>& expected) const {
-  const std::size_t n_levels = expected.size(), n_outcomes = table_->space().model.n_outcomes();
-  std::vector<double> second(n_levels), third(n_levels);
+Eigen::ArrayXd PosteriorGrid::joint_entropies() const {
+  Eigen::ArrayXd expected = -outcomes(0, weights().size()).entropy();
   double entropy = 0;
   for (std::size_t i = 0; i < weights().size(); ++i) {
     const double weight = weights()[i];
     if (weight == 0) continue;
     entropy -= times_log(weight);
-    add_scaled(second, weight, table_->outcome(i, 1));
-    if (n_outcomes > 2) add_scaled(third, weight, table_->outcome(i, 2));
-    add_scaled(expected, weight, table_->entropy(i));
+    expected += weight * table_->entropy(i).cast<double>();
   }
-  for (std::size_t x = 0; x < n_levels; ++x) {
-    const double first = 1 - second[x] - third[x];
-    expected[x] += entropy + times_log(first) + times_log(second[x]) + times_log(third[x]);
-  }
+  return expected + entropy;
 }
 
-void PosteriorGrid::add_marginal(std::vector<double>& expected) const {
-  const std::size_t n_levels = expected.size(), n_outcomes = table_->space().model.n_outcomes();
-  const std::size_t n_nuisance = table_->n_nuisance();
-  std::vector<double> all_second(n_levels), all_third(n_levels), second(n_levels), third(n_levels);
-  for (std::size_t first_point = 0; first_point < weights().size(); first_point += n_nuisance) {
-    double total = 0;
-    std::fill(second.begin(), second.end(), 0.0);
-    std::fill(third.begin(), third.end(), 0.0);
-    for (std::size_t i = first_point; i < first_point + n_nuisance; ++i) {
-      const double weight = weights()[i];
-      if (weight == 0) continue;
-      total += weight;
-      add_scaled(second, weight, table_->outcome(i, 1));
-      if (n_outcomes > 2) add_scaled(third, weight, table_->outcome(i, 2));
-    }
-    if (total == 0) continue;
-    for (std::size_t x = 0; x < n_levels; ++x) {
-      expected[x] -=
-          times_log(total - second[x] - third[x]) + times_log(second[x]) + times_log(third[x]);
-      all_second[x] += second[x];
-      all_third[x] += third[x];
-    }
+Eigen::ArrayXd PosteriorGrid::marginal_entropies() const {
+  const std::size_t n = table_->n_nuisance();
+  Outcomes all = outcomes(0, n);
+  Eigen::ArrayXd expected = all.entropy();
+  for (std::size_t i = n; i < weights().size(); i += n) {
+    const Outcomes some = outcomes(i, n);
+    if (some.total == 0) continue;
+    expected += some.entropy();
+    all.total += some.total;
+    all.others += some.others;
   }
-  for (std::size_t x = 0; x < n_levels; ++x)
-    expected[x] += times_log(1 - all_second[x] - all_third[x]) + times_log(all_second[x]) +
-                   times_log(all_third[x]);
+  return expected - all.entropy();
 }
 
 double PosteriorGrid::best_level() const {
   constexpr double as_good = 1e-7;  // nats
-  const std::vector<double> expected = expected_entropies();
-  const double least = *std::min_element(expected.begin(), expected.end());
+  const Eigen::ArrayXd expected = expected_entropies();
+  const double least = expected.minCoeff();
   const auto first = std::find_if(expected.begin(), expected.end(),
                                   [&](double entropy) { return entropy <= least + as_good; });
   return table_->space().levels[static_cast<std::size_t>(first - expected.begin())];

@@ -2,6 +2,8 @@
 // Tyler 1999; Watson 2017; nuisance parameters: Prins 2013).
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -27,7 +29,8 @@ struct GridSpace {
 };
 
 /// The probabilities of all outcomes at all points and levels. Immutable, and shared by all
-/// procedures with an equal grid. 4 bytes for each point, level and outcome.
+/// procedures with an equal grid. Guesses and lapses only mix fixed shares with those of an
+/// attentive trial, which are kept once for successive points that differ in nothing else.
 class LikelihoodTable {
  public:
   /// The table of a space, made where no procedure has it yet. Thread-safe.
@@ -46,12 +49,17 @@ class LikelihoodTable {
     return i / stride_[parameter] % space_.parameters[parameter].size();
   }
 
-  /// Probabilities at a point by level, of the outcomes except the first.
-  const float* outcome(std::size_t i, std::size_t outcome) const {
-    return &table_[(i * n_rows_ + outcome - 1) * space_.levels.size()];
+  /// As many successive points differ in guesses and lapses only.
+  std::size_t n_alike() const { return n_alike_; }
+  /// By level.
+  using Row = Eigen::Map<const Eigen::ArrayXf>;
+  /// Probabilities of an outcome of an attentive trial at a point; not of the first outcome.
+  Row attentive(std::size_t i, std::size_t outcome) const {
+    return row(attentive_, i / n_alike_ * (space_.model.n_outcomes() - 1) + outcome - 1);
   }
-  /// Entropy of the outcome at a point by level, in nats. Only without nuisance parameters.
-  const float* entropy(std::size_t i) const { return outcome(i, space_.model.n_outcomes()); }
+  const OutcomeShares& inattentive(std::size_t i) const { return inattentive_[i]; }
+  /// Entropy of the outcome at a point, in nats. Only without nuisance parameters.
+  Row entropy(std::size_t i) const { return row(entropy_, i); }
 
   /// Log probability of a response at any level, for every point; finite. Cached up to a memory
   /// limit, because simulated people repeat the same trials. Thread-safe.
@@ -59,13 +67,20 @@ class LikelihoodTable {
                                                             const Response& response) const;
 
  private:
+  struct PointShares;
   template <typename Visit>
   void visit_points(const std::vector<double>& levels, const Visit& visit) const;
 
+  Row row(const std::vector<float>& table, std::size_t i) const {
+    return {&table[i * space_.levels.size()], static_cast<Eigen::Index>(space_.levels.size())};
+  }
+  void order_points();
+
   GridSpace space_;
-  std::size_t n_points_, n_nuisance_, n_rows_;
+  std::size_t n_points_, n_nuisance_ = 1, n_alike_ = 1;
   std::array<std::size_t, 4> stride_{};
-  std::vector<float> table_;
+  std::vector<float> attentive_, entropy_;
+  std::vector<OutcomeShares> inattentive_;
   mutable std::mutex kept_mutex_;
   mutable std::map<std::pair<double, std::array<bool, 3>>,
                    std::shared_ptr<const std::vector<double>>>
@@ -82,7 +97,7 @@ class PosteriorGrid {
 
   /// Expected entropy, in nats, of the posterior after one more trial at each level; with nuisance
   /// parameters, of the marginal of the others.
-  std::vector<double> expected_entropies() const;
+  Eigen::ArrayXd expected_entropies() const;
   /// The first level whose expected entropy is within 1e-7 nats of the least: levels that are
   /// equally good, as in symmetric grids, do not depend on rounding.
   double best_level() const;
@@ -94,8 +109,10 @@ class PosteriorGrid {
 
  private:
   const std::vector<double>& weights() const { return posterior_.weights(); }
-  void add_joint(std::vector<double>& expected) const;
-  void add_marginal(std::vector<double>& expected) const;
+  struct Outcomes;
+  Outcomes outcomes(std::size_t first, std::size_t n) const;
+  Eigen::ArrayXd joint_entropies() const;
+  Eigen::ArrayXd marginal_entropies() const;
 
   std::shared_ptr<const LikelihoodTable> table_;
   LogWeights posterior_;

@@ -42,12 +42,6 @@ OutcomeShares ResponseModel::attentive(const ParameterValues& parameters, double
   return {at.above, at.below, 0};
 }
 
-bool ResponseModel::same_when_attentive(const ParameterValues& one,
-                                        const ParameterValues& other) const {
-  const auto n = is_indecision() ? 3 : 2;
-  return std::equal(one.begin(), one.begin() + n, other.begin());
-}
-
 std::array<bool, 3> ResponseModel::outcomes_of(const Response& response) const {
   if (!is_indecision()) return {!response.positive, response.positive, false};
   if (!response.choice) return {response.positive, !response.positive, response.positive};

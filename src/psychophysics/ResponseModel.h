@@ -23,6 +23,10 @@ struct EnumNames<ResponseFunction> {
 
 /// By outcome: negative, positive; or reference, none, comparison.
 using OutcomeShares = std::array<double, 3>;
+/// The share of attentive trials. @param inattentive the shares of the other trials' outcomes
+constexpr double attention(const OutcomeShares& inattentive) {
+  return 1 - inattentive[0] - inattentive[1] - inattentive[2];
+}
 /// In the order of ResponseModel::parameter_names().
 using ParameterValues = std::array<double, 4>;
 
@@ -37,13 +41,13 @@ struct ResponseModel {
   /// threshold, slope, guess, lapse; or sensitivity, indecision, bias, lapse.
   std::span<const std::string_view, 4> parameter_names() const;
   std::size_t n_outcomes() const { return is_indecision() ? 3 : 2; }
+  /// The first parameters determine attentive trials; the others are shares of guesses and lapses.
+  std::size_t n_attentive() const { return is_indecision() ? 3 : 2; }
 
   /// The outcomes with these shares regardless of the level: guesses and lapses.
   OutcomeShares inattentive(const ParameterValues& parameters) const;
   /// Probabilities of the outcomes of an attentive trial; their sum is 1.
   OutcomeShares attentive(const ParameterValues& parameters, double level) const;
-  /// Whether attentive() is the same for both.
-  bool same_when_attentive(const ParameterValues& one, const ParameterValues& other) const;
   /// The outcomes that a response can be. The indecision model takes a positive response without a
   /// choice as a choice of either stimulus.
   std::array<bool, 3> outcomes_of(const Response& response) const;

@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "psychophysics/BayesianKinds.h"
@@ -67,6 +68,62 @@ RC_GTEST_PROP(LeastEntropyProperty, ReplaysToTheSameTraceAndCopiesAreApart, ()) 
   RC_ASSERT(other.estimates()[0].value == first.estimates()[0].value);
   for (std::size_t i = 0; i < first.posterior().size(); ++i)
     RC_ASSERT(first.posterior()[i].mean == other.posterior()[i].mean);
+}
+
+// The definition, point by point: every outcome's posterior, its sums over the nuisance parameters,
+// and their entropy times the outcome's probability.
+double expected_entropy(const LikelihoodTable& table, const std::vector<double>& weights,
+                        double level) {
+  const ResponseModel& model = table.space().model;
+  double expected = 0;
+  for (std::size_t outcome = 0; outcome < model.n_outcomes(); ++outcome) {
+    std::map<std::size_t, double> joint;
+    double probability = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const OutcomeShares fixed = model.inattentive(table.point(i));
+      const double p = fixed[outcome] + (1 - fixed[0] - fixed[1] - fixed[2]) *
+                                            model.attentive(table.point(i), level)[outcome];
+      joint[i / table.n_nuisance()] += weights[i] * p;
+      probability += weights[i] * p;
+    }
+    for (const auto& [group, p] : joint)
+      if (p > 0) expected -= p * std::log(p / probability);
+  }
+  return expected;
+}
+
+RC_GTEST_PROP(LeastEntropyProperty, ExpectsTheEntropyOfTheDefinition, ()) {
+  GridSpace space{.model = {}, .parameters = {}, .levels = {-60, -5, 0, 20, 80}};
+  space.model.function = static_cast<ResponseFunction>(*rc::gen::element(0, 1, 4));
+  space.parameters = space.model.is_indecision()
+                         ? decltype(space.parameters){{{0.01, 0.02}, {0, 0.5, 1}, {0, 0.2}, {}}}
+                         : decltype(space.parameters){{{10, 30}, {5, 10, 20}, {0, 0.1}, {}}};
+  space.parameters[3] = {0.02};
+  if (*rc::gen::arbitrary<bool>()) space.parameters[3] = {0, 0.05, 0.1};
+  for (std::size_t i = 1; i < 4; ++i) space.is_nuisance[i] = *rc::gen::arbitrary<bool>();
+  const auto table = std::make_shared<const LikelihoodTable>(space);
+  PosteriorGrid grid(table);
+  std::vector<double> weights(table->n_points(), 1.0 / static_cast<double>(table->n_points()));
+  for (int trial = 0; trial < 3; ++trial) {
+    const auto entropies = grid.expected_entropies();
+    for (std::size_t x = 0; x < space.levels.size(); ++x)
+      RC_ASSERT(std::abs(entropies[static_cast<Eigen::Index>(x)] -
+                         expected_entropy(*table, weights, space.levels[x])) < 1e-6);
+    const Response response = test::any_response();
+    const double level = *rc::gen::elementOf(space.levels);
+    const auto outcomes = space.model.outcomes_of(response);
+    double sum = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      const OutcomeShares fixed = space.model.inattentive(table->point(i));
+      const OutcomeShares attentive = space.model.attentive(table->point(i), level);
+      double p = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (outcomes[k]) p += fixed[k] + (1 - fixed[0] - fixed[1] - fixed[2]) * attentive[k];
+      sum += weights[i] *= p;
+    }
+    for (double& weight : weights) weight /= sum;
+    grid.update(level, response);
+  }
 }
 
 TEST(LeastEntropy, AnImpossibleResponseLeavesTheOthersInOrder) {
