@@ -43,22 +43,6 @@ Apparatus demonstrated_apparatus(const ResolvedConfig& resolved) {
   return apparatus;
 }
 
-// Covers the row with most cubes and as much as a gap beside it, the front half of the resting
-// effector, and the range over which cubes can be pushed.
-Eigen::AlignedBox3d working_box(const Protocol& protocol) {
-  const Layout& layout = protocol.layout;
-  int n = 3;
-  for (const Block& block : protocol.blocks)
-    if (const auto* trials = std::get_if<TaskBlock>(&block)) n = std::max(n, trials->most_cubes());
-  const Stage stage = stage_of(protocol, n);
-  const double beside_m = layout.cube_size_m / 2 + layout.gap_m;
-  const double front_m = layout.row_y_m - layout.cube_size_m / 2 - layout.start_distance_m -
-                         stage.effector_size_m.x() / 2;
-  const double back_m = std::max(layout.area_m.y() / 2, layout.row_y_m + layout.cube_size_m);
-  return {Eigen::Vector3d(stage.slots_m.front().x() - beside_m, front_m, 0),
-          Eigen::Vector3d(stage.slots_m.back().x() + beside_m, back_m, layout.cube_size_m)};
-}
-
 // Starts where a model's hand would rest; none if the effector is not dragged.
 std::shared_ptr<DraggedEffector> dragged_effector(const ResolvedConfig& resolved) {
   constexpr double hover_m = 0.005;
@@ -88,6 +72,21 @@ ViewSetup view_setup(const ResolvedConfig& resolved) {
   return setup;
 }
 }  // namespace
+
+Eigen::AlignedBox3d working_box(const Protocol& protocol) {
+  const Layout& layout = protocol.layout;
+  int n = 3;
+  for (const Block& block : protocol.blocks)
+    if (const auto* trials = std::get_if<TaskBlock>(&block)) n = std::max(n, trials->most_cubes());
+  const Stage stage = stage_of(protocol, n);
+  const double beside_m = layout.cube_size_m / 2 + layout.gap_m;
+  const double front_m = layout.row_y_m - layout.cube_size_m / 2 - layout.start_distance_m -
+                         stage.effector_size_m.x() / 2;
+  const double back_m =
+      std::max((layout.area_m.y() + layout.cube_size_m) / 2, layout.row_y_m + layout.cube_size_m);
+  return {Eigen::Vector3d(stage.slots_m.front().x() - beside_m, front_m, 0),
+          Eigen::Vector3d(stage.slots_m.back().x() + beside_m, back_m, layout.cube_size_m)};
+}
 
 Equipment::Equipment(ResolvedConfig config)
     : clock(config->on_wall_clock ? SessionClock::wall_from(0) : SessionClock::virtual_from(0)),

@@ -9,6 +9,10 @@
 
 namespace heft {
 
+/// The part of the world that a cropped scene shows: the row with most cubes and as much as a gap
+/// beside it, the front half of the resting effector, and whole cubes as far as they can be pushed.
+Eigen::AlignedBox3d working_box(const Protocol& protocol);
+
 class Equipment {
  public:
   /// @throws Error (device_missing) if a camera or display is missing; Error (invalid_file) if the

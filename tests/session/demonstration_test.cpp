@@ -176,6 +176,18 @@ Apparatus demonstrated_with(SessionOptions options, const Protocol& protocol) {
   return equipment.parts(engine, sink).apparatus;
 }
 
+TEST(WorkingBox, HoldsWholeCubesFromTheirSlotsToTheFarEdge) {
+  const Protocol protocol = quick_protocol();
+  const Layout& layout = protocol.layout;
+  const Eigen::AlignedBox3d box = working_box(protocol);
+  for (const Eigen::Vector3d& slot_m : slot_positions(layout, 3))
+    for (const double y_m : {layout.row_y_m, layout.area_m.y() / 2}) {
+      const Eigen::Vector3d half_m = Eigen::Vector3d::Constant(layout.cube_size_m / 2);
+      const Eigen::Vector3d center_m(slot_m.x(), y_m, half_m.z());
+      EXPECT_TRUE(box.contains(Eigen::AlignedBox3d(center_m - half_m, center_m + half_m))) << y_m;
+    }
+}
+
 SessionOptions options_of(const ResponderChoice& responder, const std::string& tracker) {
   SessionOptions options;
   options.responder = responder;
