@@ -20,6 +20,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::IsSupersetOf;
+using testing::MatchesRegex;
 using testing::UnorderedElementsAre;
 using testing::UnorderedElementsAreArray;
 
@@ -202,13 +203,39 @@ TEST(Screens, LongConsentFillsItsPages) {
   EXPECT_GE(parts.front().size(), 4U);
 }
 
-TEST(Screens, NoPageHasOneLineOfTheParagraphThatItEnds) {
+TEST(Screens, LongTextsAreDividedBetweenSentences) {
+  int n_divided = 0;
   for (const std::string language : {"en", "fr"})
-    for (const Measures& window : {Measures(1024, 600, 2), Measures(1280, 720, 2)}) {
-      Fixture fixture(language, window);
-      const auto parts = parts_of(fixture, page_state(Screen::consent));
-      EXPECT_GE(parts.back().size(), 2U) << language << ' ' << window.width;
-    }
+    for (const Measures& window : {Measures(1024, 600, 2), Measures(1280, 720, 2)})
+      for (const Screen screen : {Screen::welcome, Screen::consent, Screen::declined, Screen::rest,
+                                  Screen::paused, Screen::thanks}) {
+        Fixture fixture(language, window);
+        const auto parts = parts_of(fixture, page_state(screen));
+        n_divided += parts.size() > 1;
+        for (const std::vector<std::string>& part : parts)
+          EXPECT_THAT(part.back(), MatchesRegex(".*[.!?]")) << language << ' ' << window.width;
+      }
+  EXPECT_GT(n_divided, 4);
+}
+
+// A language without spaces, and a sentence that no page holds.
+TEST(Screens, ASentenceLongerThanAPageIsDividedBetweenLines) {
+  for (const std::string word : {"word ", "語"}) {
+    std::string text;
+    for (int i = 0; i < 400; ++i) text += word;
+    Fixture fixture("en", {1024, 600, 2});
+    ScreenTexts texts = texts_in("en");
+    texts.pages.at("thanks").at("text") = text;
+    fixture.screens = Screens(texts, false);
+    const auto parts = parts_of(fixture, page_state(Screen::thanks));
+    EXPECT_GT(parts.size(), 2U);
+    std::string shown;
+    for (const std::vector<std::string>& part : parts)
+      for (const std::string& line : part) shown += line;
+    std::erase(shown, ' ');
+    std::erase(text, ' ');
+    EXPECT_EQ(shown, text);
+  }
 }
 
 // Given labels must be legible at arm's length, because they are validated.

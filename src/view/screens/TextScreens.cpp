@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -16,55 +15,70 @@ namespace heft {
 
 namespace {
 using Lines = std::vector<std::string>;
-using Fits = std::function<bool(const Lines& lines)>;
 
-// Adds a paragraph to the last part, after an empty line.
-Lines joined(Lines part, const Lines& paragraph) {
-  if (!part.empty()) part.emplace_back();
-  part.insert(part.end(), paragraph.begin(), paragraph.end());
-  return part;
-}
+/// Space for a part of a text.
+struct Room {
+  const PageBuilder& builder;
+  float width_px, height_px;
 
-// The end of a divided paragraph takes lines of the part before it, because a line alone on a page
-// is hard to understand.
-void lengthen_end(Lines& before, Lines& end) {
-  constexpr std::size_t fewest_lines = 3;
-  while (end.size() < fewest_lines && before.size() > fewest_lines && !before.back().empty()) {
-    end.insert(end.begin(), std::move(before.back()));
-    before.pop_back();
+  Lines lines(const std::string& text) const {
+    return builder.typeface.wrapped(text, builder.measures.body, width_px);
   }
-}
-
-// Divides a paragraph that is longer than a part.
-void add_divided(std::vector<Lines>& parts, const Lines& paragraph, const Fits& fits) {
-  const std::size_t n_before = parts.size();
-  bool is_first = true;
-  for (const std::string& line : paragraph) {
-    Lines longer = parts.back();
-    if (std::exchange(is_first, false) && !longer.empty()) longer.emplace_back();
-    longer.push_back(line);
-    if (parts.back().empty() || fits(longer))
-      parts.back() = std::move(longer);
-    else
-      parts.push_back({line});
+  bool holds(const std::string& text) const {
+    return builder.height_px(lines(text), builder.measures.body) <= height_px;
   }
-  if (parts.size() > n_before) lengthen_end(parts[parts.size() - 2], parts.back());
+};
+
+// A text with one more paragraph.
+std::string joined(const std::string& text, const std::string& paragraph) {
+  return text.empty() ? paragraph : text + "\n\n" + paragraph;
 }
 
-// Divides lines into parts that fit, between paragraphs where possible.
-std::vector<Lines> in_parts(const Lines& lines, const Fits& fits) {
-  std::vector<Lines> parts(1);
-  for (auto from = lines.begin(); from != lines.end();) {
-    const auto to = std::find(from, lines.end(), "");
-    const Lines paragraph(from, to);
-    from = to == lines.end() ? to : to + 1;
+// Length of the sentences that end within the first n characters.
+std::size_t whole_sentences(const std::string& text, std::size_t n) {
+  std::size_t length = 0;
+  for (const std::string_view mark : {". ", "? ", "! ", "。", "？", "！"})
+    for (std::size_t at = text.find(mark); at < n; at = text.find(mark, at + 1))
+      length = std::max(length, at + mark.size());
+  return length;
+}
+
+// Length of the lines that are still free in a part.
+std::size_t free_lines(const std::string& part, const std::string& paragraph, const Room& room) {
+  std::size_t length = 0;
+  for (const std::string& line : room.lines(paragraph)) {
+    const std::size_t end = paragraph.find(line, length) + line.size();
+    const bool alone = part.empty() && length == 0;  // it is shown even if it does not fit
+    if (!alone && !room.holds(joined(part, paragraph.substr(0, end)))) break;
+    length = end;
+  }
+  return length;
+}
+
+// Divides a paragraph that is longer than a part, and a sentence only if that is, too.
+void add_divided(std::vector<std::string>& parts, std::string paragraph, const Room& room) {
+  while (!room.holds(joined(parts.back(), paragraph))) {
+    const std::size_t n_free = free_lines(parts.back(), paragraph, room);
+    std::size_t length = whole_sentences(paragraph, n_free);
+    if (length == 0 && parts.back().empty()) length = n_free;
+    if (length > 0) parts.back() = joined(parts.back(), paragraph.substr(0, length));
+    paragraph.erase(0, length);
+    parts.emplace_back();
+  }
+  parts.back() = joined(parts.back(), paragraph);
+}
+
+// Divides a text into parts, between paragraphs where possible.
+std::vector<std::string> in_parts(const std::string& text, const Room& room) {
+  std::vector<std::string> parts(1);
+  for (const std::string& paragraph : paragraphs_of(text)) {
     if (paragraph.empty()) continue;
-    if (Lines longer = joined(parts.back(), paragraph); fits(longer))
-      parts.back() = std::move(longer);
-    else if (fits(paragraph))
+    if (room.holds(joined(parts.back(), paragraph)))
+      parts.back() = joined(parts.back(), paragraph);
+    else if (room.holds(paragraph))
       parts.push_back(paragraph);
     else
-      add_divided(parts, paragraph, fits);
+      add_divided(parts, paragraph, room);
   }
   return parts;
 }
@@ -75,18 +89,17 @@ void add_back(PageBuilder& builder) {
 }
 
 // The parts of a text. The last one has `n_rows` of buttons below it, the others one.
-std::vector<Lines> parts_of(const PageBuilder& builder, const Lines& lines, float above_px,
-                            int n_rows) {
-  const auto fits_over = [&](int n) -> Fits {
-    return [&builder, room_px = builder.text_area(n).height - above_px](const Lines& some) {
-      return builder.height_px(some, builder.measures.body) <= room_px;
-    };
+std::vector<std::string> parts_of(const PageBuilder& builder, const std::string& text,
+                                  float above_px, int n_rows) {
+  const auto room_over = [&](int n) {
+    const Rect area = builder.text_area(n);
+    return Room{builder, area.width, area.height - above_px};
   };
-  std::vector<Lines> parts = in_parts(lines, fits_over(1));
+  std::vector<std::string> parts = in_parts(text, room_over(1));
   if (n_rows == 1) return parts;
-  const Lines last = std::move(parts.back());
+  const std::string last = std::move(parts.back());
   parts.pop_back();
-  for (Lines& part : in_parts(last, fits_over(n_rows))) parts.push_back(std::move(part));
+  for (std::string& part : in_parts(last, room_over(n_rows))) parts.push_back(std::move(part));
   return parts;
 }
 
@@ -99,12 +112,12 @@ bool add_text(PageBuilder& builder, const std::string& page, int wished_part, in
   const float width = builder.text_area().width;
   const Lines title = builder.typeface.wrapped(builder.text(page, "title"), m.title, width);
   const float title_px = builder.height_px(title, m.title) + m.margin;
-  const auto parts = parts_of(
-      builder, builder.typeface.wrapped(builder.text(page, key), m.body, width), title_px, n_rows);
+  const auto parts = parts_of(builder, builder.text(page, key), title_px, n_rows);
   const int n_parts = static_cast<int>(parts.size());
   const int part = std::min(wished_part, n_parts - 1);
   const bool is_last = part + 1 == n_parts;
-  const Lines& lines = parts[static_cast<std::size_t>(part)];
+  const Lines lines =
+      builder.typeface.wrapped(parts[static_cast<std::size_t>(part)], m.body, width);
   const Rect area = builder.text_area(is_last ? n_rows : 1);
   const float free_px = area.height - title_px - builder.height_px(lines, m.body);
   const float y = n_parts > 1 ? area.y : area.y + std::max(0.f, 0.4f * free_px);

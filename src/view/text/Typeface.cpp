@@ -21,15 +21,6 @@ std::string in_one_line(const std::string& paragraph) {
   return line;
 }
 
-std::vector<std::string> paragraphs_of(const std::string& text) {
-  std::vector<std::string> paragraphs;
-  std::size_t from = 0;
-  for (std::size_t end; (end = text.find("\n\n", from)) != std::string::npos; from = end + 2)
-    paragraphs.push_back(text.substr(from, end - from));
-  paragraphs.push_back(text.substr(from));
-  return paragraphs;
-}
-
 // The direction in which most texts begin: one may begin with a foreign name.
 Direction direction_of(const ScreenTexts& texts, const Letters& letters) {
   int balance = 0;
@@ -69,6 +60,15 @@ const Value& remembered(std::map<Key, Value>& memory, const Key& key, const Make
 }
 }  // namespace
 
+std::vector<std::string> paragraphs_of(const std::string& text) {
+  std::vector<std::string> paragraphs;
+  std::size_t from = 0;
+  for (std::size_t end; (end = text.find("\n\n", from)) != std::string::npos; from = end + 2)
+    paragraphs.push_back(in_one_line(text.substr(from, end - from)));
+  paragraphs.push_back(in_one_line(text.substr(from)));
+  return paragraphs;
+}
+
 Typeface::Typeface(const ScreenTexts& texts, std::shared_ptr<const Letters> letters)
     : letters_(std::move(letters)), direction_(direction_of(texts, *letters_)) {}
 
@@ -101,7 +101,7 @@ std::vector<std::string> Typeface::wrapped(const std::string& text, float size_p
     std::vector<std::string> lines;
     for (const std::string& paragraph : paragraphs_of(text)) {
       if (!lines.empty()) lines.emplace_back();
-      for (std::string& line : letters_->lines_of(written(in_one_line(paragraph), size_px), width))
+      for (std::string& line : letters_->lines_of(written(paragraph, size_px), width))
         lines.push_back(std::move(line));
     }
     return lines;

@@ -63,6 +63,9 @@ class Typeface {
   mutable std::map<std::pair<WrittenLine, float>, std::vector<std::string>> wrapped_;
 };
 
+/// Paragraphs of a text, which empty lines separate; each in one line, with single spaces.
+std::vector<std::string> paragraphs_of(const std::string& text);
+
 /// Lists the characters and what to do about them.
 std::string missing_characters_message(const std::vector<MissingCharacter>& characters);
 
