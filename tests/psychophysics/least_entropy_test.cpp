@@ -251,6 +251,16 @@ TEST(LikelihoodTable, GivesTheSameWhetherItKeptItOrNot) {
   }
 }
 
+TEST(LikelihoodTable, HasOneRowForAllGuessesAndLapses) {
+  EXPECT_EQ(LikelihoodTable(test::heavier_at_200g(40).space()).n_alike(), 2U);
+  PsiConfig config = test::detection_of_grams<PsiConfig>(40);
+  config.guess = {{0, 0.02}};
+  config.lapse = {{0, 0.02, 0.04}};
+  EXPECT_EQ(LikelihoodTable(config.space()).n_alike(), 6U);
+  config.nuisance = {"lapse"};
+  EXPECT_EQ(LikelihoodTable(config.space()).n_alike(), 3U);
+}
+
 TEST(LikelihoodTable, KeepsNoMoreThanItsMemoryAllows) {
   PsiConfig config = test::heavier_at_200g(40);
   config.sensitivity = test::ratios(0.001, 0.1, 2000);
