@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace heft {
 
@@ -72,6 +71,7 @@ LikelihoodTable::LikelihoodTable(GridSpace space)
   });
 }
 
+// Nuisance parameters vary fastest; among them and among the others, guesses and lapses do.
 void LikelihoodTable::order_points() {
   std::size_t stride = 1;
   bool alike = true;
