@@ -90,8 +90,8 @@ inline constexpr double least_trials_to_fit = 10;
 
 // Shared by fit_indecision and fit_psychometric.
 
-/// The largest level, in grams from the reference. Levels that are absolute masses have no
-/// reference at 0; for them it is the range from the lightest to the heaviest.
+/// How far the presented levels extend: the largest distance from the reference; of absolute
+/// masses, which have no reference at 0, the range from the lightest to the heaviest.
 struct LevelReach {
   double level_g = 0;
   bool is_range = false;  ///< otherwise the largest level
@@ -131,7 +131,7 @@ double log_likelihood_of_steps(const AnswersByLevel& answers, std::span<const do
 
 /// n log p and its first and second derivative by p. p counts as at least 1e-300.
 struct LogShare {
-  double value, slope, bend;
+  double value, slope, curvature;
 };
 LogShare log_share(double n, double p);
 

@@ -62,7 +62,7 @@ LevelLikelihood level_likelihood(const IndecisionParameters& parameters,
     found.value += shares[k].value;
     if (shares[k].slope == 0) continue;  // not given
     found.first += shares[k].slope * slopes[k];
-    found.second += shares[k].bend * slopes[k] * slopes[k].transpose();
+    found.second += shares[k].curvature * slopes[k] * slopes[k].transpose();
   }
   const double at_up = shares[comparison_answer].slope - shares[none_answer].slope;
   const double at_down = shares[none_answer].slope - shares[reference_answer].slope;
@@ -339,10 +339,11 @@ double log_likelihood_of_same(const AnswersByLevel& answers, double unit, double
     sum += yes.value + no.value;
     if (!derivatives) continue;
     const Eigen::Vector2d slope(x * (above - below), -above - below);
-    const double bend = -up * above - down * below, mixed = x * (up * above - down * below);
-    const Eigen::Matrix2d bends{{x * x * bend, mixed}, {mixed, bend}};
+    const double curvature = -up * above - down * below, mixed = x * (up * above - down * below);
+    const Eigen::Matrix2d curvatures{{x * x * curvature, mixed}, {mixed, curvature}};
     gradient += (yes.slope - no.slope) * slope;
-    hessian += (yes.bend + no.bend) * slope * slope.transpose() + (yes.slope - no.slope) * bends;
+    hessian += (yes.curvature + no.curvature) * slope * slope.transpose() +
+               (yes.slope - no.slope) * curvatures;
   }
   if (derivatives) *derivatives = {gradient, hessian};
   return sum;

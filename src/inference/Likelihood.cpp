@@ -46,21 +46,21 @@ bool Likelihood::can_climb_along(Eigen::Index i, const Parameters& at) const {
 Parameters Likelihood::step_against(const Parameters& slope, const Parameters& at,
                                     Eigen::Index held) const {
   Parameters step = slope;
-  Curvature bend = -derivatives_.hessian;
+  Curvature curvature = -derivatives_.hessian;
   const auto moves = [&](Eigen::Index i) { return i != held && can_climb_along(i, at); };
   for (Eigen::Index i = 0; i < n_; ++i) {
     if (moves(i)) continue;
     step[i] = 0;
-    bend.row(i).setZero();
-    bend.col(i).setZero();
-    bend(i, i) = 1;
+    curvature.row(i).setZero();
+    curvature.col(i).setZero();
+    curvature(i, i) = 1;
   }
-  if (!bend.allFinite()) return step;
-  if (const Eigen::LLT<Curvature> factor(bend); factor.info() == Eigen::Success) {
+  if (!curvature.allFinite()) return step;
+  if (const Eigen::LLT<Curvature> factor(curvature); factor.info() == Eigen::Success) {
     factor.solveInPlace(step);
     return step;
   }
-  const Eigen::SelfAdjointEigenSolver<Curvature> solver(bend);
+  const Eigen::SelfAdjointEigenSolver<Curvature> solver(curvature);
   const double largest = solver.eigenvalues().cwiseAbs().maxCoeff();
   Parameters along = solver.eigenvectors().transpose() * step;
   for (Eigen::Index i = 0; i < n_; ++i)

@@ -83,8 +83,8 @@ double top_of(const Profile& values) {
   const auto best = std::ranges::max_element(values);
   const double place = static_cast<double>(best - values.begin());
   if (best == values.begin() || best == values.end() - 1) return place;
-  const double before = *(best - 1), after = *(best + 1), bend = before - 2 * *best + after;
-  return bend < 0 ? place + (before - after) / (2 * bend) : place;
+  const double before = *(best - 1), after = *(best + 1), curvature = before - 2 * *best + after;
+  return curvature < 0 ? place + (before - after) / (2 * curvature) : place;
 }
 
 // The place at which the likelihood has fallen by `drop`; none: it never does on this side.

@@ -121,7 +121,7 @@ struct Distribution {
 
 // Derivatives of the log density by the population.
 using Slopes = Eigen::Matrix<double, Eigen::Dynamic, n_population_parameters>;  // a row each
-using Bends = Eigen::Matrix<double, n_population_parameters, n_population_parameters>;
+using Hessian = Eigen::Matrix<double, n_population_parameters, n_population_parameters>;
 
 Slopes density_slopes(const Distribution& of, const Eigen::ArrayX3d& z) {
   const double rho = of.rho, kappa = of.kappa;
@@ -150,12 +150,12 @@ struct Moments {
   double s, t, ss, st, tt, bb;
 };
 
-Bends density_bends(const Distribution& of, const Moments& m) {
+Hessian density_hessian(const Distribution& of, const Moments& m) {
   const double rho = of.rho, kappa = of.kappa;
   const double square = m.ss - 2 * rho * m.st + m.tt;
-  Bends bend = Bends::Zero();
+  Hessian hessian = Hessian::Zero();
   const auto put = [&](Eigen::Index i, Eigen::Index j, double value) {
-    bend(i, j) = bend(j, i) = value;
+    hessian(i, j) = hessian(j, i) = value;
   };
   put(mean_log_sensitivity, mean_log_sensitivity, -kappa / (of.sd_s * of.sd_s));
   put(mean_log_criterion, mean_log_criterion, -kappa / (of.sd_t * of.sd_t));
@@ -176,13 +176,13 @@ Bends density_bends(const Distribution& of, const Moments& m) {
   put(arctanh_correlation, arctanh_correlation,
       1 / kappa + 2 * m.st * rho - square - 2 * square * rho * rho * kappa);
   put(log_sd_bias, log_sd_bias, -2 * m.bb);
-  return bend;
+  return hessian;
 }
 
 struct PersonLikelihood {
   double value = 0;
   Eigen::Vector3d slope = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d bend = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
 };
 
 IndecisionParameters own_parameters(const PersonEffects& effects, double lapse) {
@@ -201,18 +201,18 @@ PersonLikelihood person_likelihood(std::span<const LevelAnswers> answers,
     const Eigen::Vector2d first = by.first.head<2>();
     sum.value += by.value;
     sum.slope += change * first;
-    sum.bend += change * by.second.topLeftCorner<2, 2>() * change.transpose();
-    sum.bend(0, 0) += felt * (first[0] + first[1]);
-    sum.bend(1, 1) += tau * (first[1] - first[0]);
+    sum.hessian += change * by.second.topLeftCorner<2, 2>() * change.transpose();
+    sum.hessian(0, 0) += felt * (first[0] + first[1]);
+    sum.hessian(1, 1) += tau * (first[1] - first[0]);
   }
   return sum;
 }
 
 // Newton's step, with the absolute values of the Hessian's eigenvalues, so that it leads uphill.
-Eigen::Vector3d uphill(const Eigen::Matrix3d& bend, const Eigen::Vector3d& slope) {
-  if (const Eigen::LLT<Eigen::Matrix3d> factor(-bend); factor.info() == Eigen::Success)
+Eigen::Vector3d uphill(const Eigen::Matrix3d& hessian, const Eigen::Vector3d& slope) {
+  if (const Eigen::LLT<Eigen::Matrix3d> factor(-hessian); factor.info() == Eigen::Success)
     return factor.solve(slope);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(bend);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(hessian);
   const Eigen::Array3d values = solver.eigenvalues().array().abs().max(1e-6);
   return solver.eigenvectors() *
          ((solver.eigenvectors().transpose() * slope).array() / values).matrix();
@@ -236,18 +236,18 @@ void PersonIntegral::find_mode(const Parameters& population) {
     const Eigen::Vector3d pull = precision * (at - mean);
     all.value -= pull.dot(at - mean) / 2;
     all.slope -= pull;
-    all.bend -= precision;
+    all.hessian -= precision;
     return all;
   };
   constexpr double longest_step = 2, small_gain = 1e-9;
   PersonLikelihood here = posterior(has_mode_ ? mode_ : mean);
-  if (!has_mode_ || !here.bend.allFinite()) {  // or so far from the last that no digits are left
+  if (!has_mode_ || !here.hessian.allFinite()) {  // or so far from the last that no digits are left
     mode_ = mean;
     here = posterior(mode_);
   }
   has_mode_ = true;
   for (int i = 0; i < 50; ++i) {
-    Eigen::Vector3d step = uphill(here.bend, here.slope);
+    Eigen::Vector3d step = uphill(here.hessian, here.slope);
     if (step.dot(here.slope) < small_gain) break;
     step *= std::min(1.0, longest_step / step.cwiseAbs().maxCoeff());
     PersonLikelihood there = posterior(mode_ + step);
@@ -257,7 +257,7 @@ void PersonIntegral::find_mode(const Parameters& population) {
     mode_ += step;
     here = there;
   }
-  curvature_ = -here.bend;
+  curvature_ = -here.hessian;
 }
 
 void PersonIntegral::center(const Parameters& population) {
@@ -309,7 +309,7 @@ PersonIntegral::AtNodes PersonIntegral::at_nodes(double lapse, bool with_derivat
     if (with_derivatives) {
       slope = (1.0 / 3 - share) / p;
       sum.slope += given.n * slope;
-      sum.bend -= given.n * slope.square();
+      sum.curvature -= given.n * slope.square();
     }
     for (double n = given.n; n > 0; n -= 1) {
       product *= p;
@@ -336,11 +336,11 @@ double PersonIntegral::log_likelihood(const Parameters& population, Derivatives*
   Slopes slopes = density_slopes(people, z);
   slopes.col(shared_lapse) = given.slope;
   score_ = slopes.transpose() * weights.matrix();
-  Bends bend = slopes.transpose() * weights.matrix().asDiagonal() * slopes;
-  bend(shared_lapse, shared_lapse) += (weights * given.bend).sum();
+  Hessian hessian = slopes.transpose() * weights.matrix().asDiagonal() * slopes;
+  hessian(shared_lapse, shared_lapse) += (weights * given.curvature).sum();
   derivatives->gradient = score_;
   derivatives->hessian =
-      bend - score_ * score_.transpose() + density_bends(people, Moments(weights, z));
+      hessian - score_ * score_.transpose() + density_hessian(people, Moments(weights, z));
   return value;
 }
 

@@ -48,7 +48,7 @@ class PersonIntegral {
     IndecisionAnswer answer = none_answer;
   };
   struct AtNodes {  // log likelihood of the answers and its derivatives by the lapse rate
-    Eigen::ArrayXd value, slope, bend;
+    Eigen::ArrayXd value, slope, curvature;
   };
 
   AtNodes at_nodes(double lapse, bool with_derivatives) const;

@@ -111,7 +111,7 @@ double log_likelihood(const Levels& levels, PsychometricShape shape, const Param
     if (!derivatives) continue;
     const ShareSlopes slopes = share_slopes(curve, distance, at);
     gradient += (yes.slope - no.slope) * slopes.first;
-    hessian += (yes.bend + no.bend) * slopes.first * slopes.first.transpose() +
+    hessian += (yes.curvature + no.curvature) * slopes.first * slopes.first.transpose() +
                (yes.slope - no.slope) * slopes.second;
   }
   if (derivatives)

@@ -33,7 +33,7 @@ std::optional<double> mean(std::span<const double> values);
 /// Standard deviation over n-1; none for fewer than two values, exactly 0 where all are equal.
 std::optional<double> sample_sd(std::span<const double> values);
 
-/// By which the values at some x add up to the slope of the least-squares line. At least two
+/// The slope of the least-squares line of y on x is the sum of these weights times y. At least two
 /// different x.
 std::vector<double> slope_weights(std::span<const double> x);
 

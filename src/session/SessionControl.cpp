@@ -77,7 +77,7 @@ void SessionControl::wait_while_held() {
     if (!busy_since_s && (!holding_ || leaving())) break;
     if (busy_since_s && gives_up_after(monotonic_s() - *busy_since_s))
       throw LogBusy(*journal_.busy());
-    stand_still(busy_since_s.has_value());
+    wait_paused(busy_since_s.has_value());
   }
   continue_after_database();
   refuse_stale();
@@ -127,8 +127,8 @@ bool SessionControl::gives_up_after(double waited_s) const {
   return !has_person_ && waited_s >= longest_wait_alone_s;
 }
 
-// Touches meanwhile are ignored.
-void SessionControl::stand_still(bool is_locked) {
+// Shows the pause for a moment; touches meanwhile are ignored.
+void SessionControl::wait_paused(bool is_locked) {
   if (is_locked) status.trouble = std::string(database_locked) + "; retrying";
   if (journal_.clock().is_wall()) show_pause();
   poll(holding_step_s);

@@ -168,7 +168,7 @@ class SessionControl {
   void pause_for_database();
   void continue_after_database();
   bool gives_up_after(double waited_s) const;
-  void stand_still(bool is_locked);
+  void wait_paused(bool is_locked);
   void show();
 
   Journal& journal_;

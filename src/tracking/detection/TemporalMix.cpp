@@ -91,7 +91,7 @@ void TemporalMix::learn(double noise) {
 
 // Whether moving parts are not mixed: a mixed picture would have at most 1 - share of a change from
 // black to white or back.
-bool TemporalMix::spares_motion() const {
+bool TemporalMix::keeps_motion_sharp() const {
   const Image &now = seen_[0].gray, &before = seen_[1].gray;
   const double most_change = (1 + 2 * (1 - share_)) / 3;
   std::array<int, 256> counts{};
@@ -129,7 +129,7 @@ Image TemporalMix::cleared(Image gray, double t_s, double noise) {
   n_regular_ = is_next ? n_regular_ + 1 : 0;
   if (seen_.size() == n_needed && n_regular_ + 1 >= n_needed) learn(noise);
   leaves_ghost_ = share_ > 0 && !is_next;
-  if (share_ == 0 || !is_next || spares_motion()) return now;
+  if (share_ == 0 || !is_next || keeps_motion_sharp()) return now;
   Image light = now;
   const std::vector<std::uint8_t>& before = seen_[1].gray.pixels;
   const auto weight = static_cast<float>(share_ / (1 - share_));

@@ -44,7 +44,7 @@ class TemporalMix {
     double t_s;
   };
   void learn(double noise);
-  bool spares_motion() const;
+  bool keeps_motion_sharp() const;
 
   std::deque<Seen> seen_;             ///< the last pictures, the newest first
   double next_ = 0, after_next_ = 0;  ///< covariances of d(n - 2), summed
