@@ -229,6 +229,24 @@ class Withdrawal(Integrity):
                              [(0,)], table)
         self.assertEqual(query(self.db, "pragma integrity_check"), [("ok",)])
 
+    # Also the state that a power cut after the withdrawal's commit leaves.
+    def test_an_open_reader_is_named_and_the_repeated_command_overwrites_the_rows(self):
+        self.people(2)
+        [(started,)] = query(self.db, "select started_utc from session where session_id = 2")
+        reader = sqlite3.connect(f"file:{self.db}?mode=ro", uri=True, isolation_level=None)
+        reader.execute("begin")
+        reader.execute("select count(*) from event").fetchall()
+        words = ("withdraw", "--db", self.db, "--session", 2, "--yes")
+        done = self.run_heft(*words, expect=1)
+        self.assertIn("session 2 is withdrawn; head", done.stdout)
+        self.assertIn("can still be read from the file", done.stderr)
+        self.assertIn("another program has the log open. Close it, then repeat: heft withdraw",
+                      done.stderr)
+        self.assertIn(started.encode(), self.db.read_bytes())
+        reader.close()
+        self.assertIn("nothing of it is left", self.run_heft(*words, expect=2).stderr)
+        self.assertNotIn(started.encode(), self.db.read_bytes())
+
     def test_replay_analyse_and_export_accept_it(self):
         self.people()
         before = self.head()

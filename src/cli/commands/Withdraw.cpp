@@ -87,6 +87,14 @@ void report_copies(const Found& found, const WithdrawOptions& options) {
       "and are not found here.\n");
 }
 
+void refuse_if_left_in_file(const std::string& why, const WithdrawOptions& options) {
+  if (why.empty()) return;
+  throw Error(
+      fmt::format("session {} is withdrawn, but its data can still be read from the file "
+                  "{}: {}, then repeat: heft withdraw --db {} --session {} --yes",
+                  *options.session, options.db, why, shell_quoted(options.db), *options.session));
+}
+
 void withdraw(const WithdrawOptions& options) {
   if (!options.session)
     throw Error(fmt::format("--session N is required: heft list --db {} shows them",
@@ -94,13 +102,18 @@ void withdraw(const WithdrawOptions& options) {
                 ExitCode::usage);
   refuse_special_file(options.db);
   const Found found = found_in(LogReader(options.db), options);
-  if (found.facts.row.state == SessionState::withdrawn)
-    throw Error(fmt::format("session {} in {} is already withdrawn", *options.session, options.db),
+  if (found.facts.row.state == SessionState::withdrawn) {
+    refuse_if_left_in_file(finish_withdrawals(options.db), options);
+    throw Error(fmt::format("session {} in {} is already withdrawn, and nothing of it is left in "
+                            "the file",
+                            *options.session, options.db),
                 ExitCode::usage);
+  }
   confirm(found.facts, options);
-  const std::string head = withdraw_session(options.db, *options.session, utc_now());
-  print("session {} is withdrawn; head of the log: {}\n", *options.session, short_head(head));
+  const Withdrawal done = withdraw_session(options.db, *options.session, utc_now());
+  print("session {} is withdrawn; head of the log: {}\n", *options.session, short_head(done.head));
   report_copies(found, options);
+  refuse_if_left_in_file(done.why_not_overwritten, options);
 }
 }  // namespace
 

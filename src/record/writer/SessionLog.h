@@ -84,15 +84,25 @@ class SessionArchive {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Removes all rows of a session and vacuums the file. The session's number, protocol name, purpose
-/// and versions remain, with the state "withdrawn", so that replay still verifies the log, and
-/// analyses can count it.
+struct Withdrawal {
+  std::string head;                 ///< the log's new head
+  std::string why_not_overwritten;  ///< as finish_withdrawals() returns it
+};
+
+/// Removes all rows of a session and overwrites them in the file. The session's number, protocol
+/// name, purpose and versions remain, with the state "withdrawn", so that replay still verifies the
+/// log, and analyses can count it.
 /// @param when_utc of the withdrawal; kept with it
-/// @return the log's new head
 /// @throws Error if the log is in use or cannot be written, there is no such session, or its data
 ///   were withdrawn before; nothing is changed then
-std::string withdraw_session(const std::string& db, std::int64_t session_id,
-                             const std::string& when_utc);
+Withdrawal withdraw_session(const std::string& db, std::int64_t session_id,
+                            const std::string& when_utc);
+
+/// Overwrites the removed rows that an interrupted withdrawal left in the file.
+/// @return why they may still be in it, and what to do: "another program has the log open. Close
+///   it"; empty if they are overwritten
+/// @throws Error if the log is in use or cannot be opened
+std::string finish_withdrawals(const std::string& db);
 
 /// Files in folders, and the folders in them, that still hold a session: other logs (backups,
 /// earlier versions) by participant and start time, and texts (exports, reports) by the

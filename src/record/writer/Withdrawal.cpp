@@ -64,8 +64,23 @@ void write_tombstone(SQLite::Database& database, std::int64_t session_id,
   row.run_with_digest();
 }
 
-std::string withdraw(LogFile& file, std::int64_t session_id, const SessionHeader& header,
-                     const std::string& when_utc) {
+// Rewrites the file without the rows that were removed from it.
+// @return why they may still be in the file, and what to do; empty: they are overwritten
+std::string overwrite_removed_rows(LogFile& file) {
+  SQLite::Database& database = file.database();
+  try {
+    database.exec("VACUUM");
+    SQLite::Statement checkpoint(database, "PRAGMA wal_checkpoint(TRUNCATE)");
+    const bool is_done = checkpoint.executeStep() && checkpoint.getColumn(0).getInt() == 0;
+    return is_done ? "" : "another program has the log open. Close it";
+  } catch (const SQLite::Exception& error) {
+    const SqliteFailure failure = explained(error, &database);
+    return fmt::format("{}. {}", failure.reason, failure.advice);
+  }
+}
+
+Withdrawal withdraw(LogFile& file, std::int64_t session_id, const SessionHeader& header,
+                    const std::string& when_utc) {
   SQLite::Database& database = file.database();
   // Removed pages are overwritten, not only marked as free.
   database.exec("PRAGMA secure_delete = ON");
@@ -73,12 +88,12 @@ std::string withdraw(LogFile& file, std::int64_t session_id, const SessionHeader
   seal_sessions(database);
   remove_rows(database, session_id);
   write_tombstone(database, session_id, tombstone_of(header, when_utc, database));
-  std::string head = seal(database, session_id);
+  Withdrawal done;
+  done.head = seal(database, session_id);
   transaction.commit();
-  database.exec("VACUUM");
-  database.exec("PRAGMA wal_checkpoint(TRUNCATE)");
+  done.why_not_overwritten = overwrite_removed_rows(file);
   file.check_in_place();
-  return head;
+  return done;
 }
 
 bool holds_session(const fs::path& file, const std::string& participant,
@@ -119,8 +134,8 @@ bool is_copy(const fs::path& file, const std::string& participant, const std::st
 }
 }  // namespace
 
-std::string withdraw_session(const std::string& db, std::int64_t session_id,
-                             const std::string& when_utc) {
+Withdrawal withdraw_session(const std::string& db, std::int64_t session_id,
+                            const std::string& when_utc) {
   LogFile file(db);
   const SessionRow session = LogReader(db).session(session_id);
   if (session.state == SessionState::withdrawn)
@@ -132,6 +147,11 @@ std::string withdraw_session(const std::string& db, std::int64_t session_id,
     throw sqlite_error(fmt::format("cannot withdraw session {} from {}", session_id, db), error,
                        &file.database());
   }
+}
+
+std::string finish_withdrawals(const std::string& db) {
+  LogFile file(db);
+  return overwrite_removed_rows(file);
 }
 
 std::set<std::string> copies_of_session(const std::set<std::string>& folders, const std::string& db,
