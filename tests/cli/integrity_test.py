@@ -246,6 +246,8 @@ class Withdrawal(Integrity):
         reader.close()
         self.assertIn("nothing of it is left", self.run_heft(*words, expect=2).stderr)
         self.assertNotIn(started.encode(), self.db.read_bytes())
+        shown = self.run_heft("show", "--db", self.db, "--session", 2).stdout
+        self.assertRegex(shown, r"session 2: its data were withdrawn at \d{4}-[^{]*; head")
 
     def test_replay_analyse_and_export_accept_it(self):
         self.people()

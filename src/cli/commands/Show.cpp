@@ -229,13 +229,20 @@ Json as_json(const Shown& shown) {
   return json;
 }
 
+// " at 2026-11-28T20:03:01.974Z"; empty if the log does not have it.
+std::string withdrawal_time(const SessionHeader& header) {
+  const Json kept = Json::parse(header.run_options, nullptr, false);
+  const auto when = kept.find("withdrawn_utc");
+  return when != kept.end() && when->is_string() ? " at " + when->get<std::string>() : "";
+}
+
 void show(const std::string& db, std::optional<std::int64_t> session_id, bool json) {
   const Shown shown = shown_of(db, session_id);
   if (json)
     return fmt::print("{}\n", as_json(shown).dump(2, ' ', false, Json::error_handler_t::replace));
   if (shown.facts.row.state == SessionState::withdrawn)
-    return print("session {}: its data were withdrawn ({}); head of the log: {}\n",
-                 shown.facts.row.session_id, shown.facts.row.header.run_options,
+    return print("session {}: its data were withdrawn{}; head of the log: {}\n",
+                 shown.facts.row.session_id, withdrawal_time(shown.facts.row.header),
                  short_head(shown.facts.head));
   print_head(shown.facts);
   print_pictures(shown.facts.pictures);
