@@ -153,9 +153,15 @@ class Verifier {
     if (!broken) return;
     // What is wrong with a seal's session is more specific.
     const double t_s = broken->table == "seal" ? fold_.last_s : broken->t_s;
-    differ(broken->attempt_index, t_s, broken->row,
-           broken->damage.empty() ? "digest " + broken->logged : broken->damage,
-           broken->damage.empty() ? "digest " + broken->recomputed : "a row as it was written");
+    differ(
+        broken->attempt_index, t_s, broken->row,
+        broken->damage.empty() ? digest_or_counts(broken->logged) : broken->damage,
+        broken->damage.empty() ? digest_or_counts(broken->recomputed) : "a row as it was written");
+  }
+
+  // "9 events and 30 frames" is no digest, and says what it is.
+  static std::string digest_or_counts(const std::string& value) {
+    return value.find(' ') == std::string::npos ? "digest " + value : value;
   }
 
   void compare_attempt(int index, const ProjectedAttempt& attempt,

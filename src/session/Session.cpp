@@ -99,11 +99,11 @@ void refuse_changed_log(const LogReader& reader, const LoggedSession& session) {
     why = fmt::format("{} is {}, but its events give {}", found.first->what, found.first->logged,
                       found.first->replayed);
   if (!why.empty())
-    throw Error(
-        fmt::format("session {} in {} cannot be continued: the log was changed; {}. "
-                    "Inspect it with: heft replay --db {} --session {}",
-                    session.row.session_id, session.db, why, session.db, session.row.session_id),
-        ExitCode::diverged);
+    throw Error(fmt::format("session {} in {} cannot be continued: the log was changed; {}. "
+                            "Inspect it with: heft replay --db {} --session {}",
+                            session.row.session_id, session.db, why, shell_quoted(session.db),
+                            session.row.session_id),
+                ExitCode::diverged);
 }
 
 // A logged session folded up to its last event, under the log's lock.

@@ -108,6 +108,14 @@ class Figures(Integrity):
         except (sqlite3.Error, UnicodeDecodeError, OverflowError) as error:
             return str(error)
 
+    def test_a_refusal_to_resume_counts_rows_and_its_command_can_be_copied(self):
+        db = self.folder / "my lab.db"
+        self.kill_under_way(db)
+        change(db, "delete from frame where frame_id = (select max(frame_id) from frame)")
+        refused = self.run_heft("resume", "--db", db, expect=5).stderr
+        self.assertRegex(refused, r"rows is \d+ events and \d+ frames, but .* give \d+ events")
+        self.assertIn(f"heft replay --db '{db}' --session 1", refused)
+
     def test_unverified_figures_are_marked_everywhere(self):
         self.people(1)
         change(self.db, "update trial set outcome = 'correct' where outcome = 'incorrect'")
