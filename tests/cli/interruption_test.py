@@ -9,6 +9,7 @@ import shutil
 import signal
 import subprocess
 import time
+from pathlib import Path
 
 from session_harness import PROTOCOLS, SessionTest, main, outcome_of, query
 
@@ -90,6 +91,36 @@ class Killed(SessionTest):
             for suffix in ("", "-wal", "-shm"):
                 if os.path.exists(f"{self.folder}/copy.db{suffix}"):
                     os.remove(f"{self.folder}/copy.db{suffix}")
+
+    # A power cut leaves any part of what was written last: the tail of the -wal file is torn.
+    def test_power_cuts_that_tear_the_last_writes_resume_to_the_same_end(self):
+        whole = self.folder / "whole.db"
+        self.session(whole, protocol="jnd")
+        expected = outcome_of(whole, frames=True)
+        rng = random.Random(20261128)
+        db = self.folder / "s.db"
+        process = self.start_until_under_way(db)
+        cuts = []
+        for _ in range(3):
+            process.send_signal(signal.SIGSTOP)
+            cuts.append((db.read_bytes(), Path(f"{db}-wal").read_bytes()))
+            process.send_signal(signal.SIGCONT)
+            time.sleep(0.02)
+        process.kill()
+        process.communicate()
+        for pages, tail in cuts:
+            n_torn = rng.randrange(1, 3 * 4096)
+            kept = tail[:-n_torn]
+            torn = rng.choice([kept, kept + bytes(n_torn), kept + rng.randbytes(n_torn),
+                               tail + tail[-n_torn:]])
+            with self.subTest(n_torn=n_torn, n_bytes=len(torn)):
+                Path(f"{db}-shm").unlink(missing_ok=True)
+                db.write_bytes(pages)
+                Path(f"{db}-wal").write_bytes(torn)
+                self.run_heft("analyse", "--db", db, "--json")
+                self.run_heft("resume", "--db", db)
+                self.run_heft("replay", "--db", db)
+                self.assertEqual(outcome_of(db, frames=True), expected)
 
     def test_the_gap_is_logged_and_time_continues(self):
         db = self.folder / "s.db"
