@@ -52,6 +52,7 @@ TEST_F(ReportFolder, HoldsTablesChartsPageAndSummary) {
        {"sorting.csv", "jnd.csv", "sessions.csv", "staircases.gp", "report.html", "summary.json"})
     EXPECT_THAT(result.files, Contains(name));
   for (const std::string& name : result.files) EXPECT_TRUE(fs::exists(folder / name)) << name;
+  EXPECT_FALSE(fs::exists(folder / "report_unfinished.txt"));
   const auto json = nlohmann::json::parse(read("summary.json"));
   EXPECT_EQ(json["made_by"], "heft analyse");
   EXPECT_EQ(json["command"], "heft analyse --db x.db --out 'a folder'");
@@ -125,6 +126,21 @@ TEST_F(ReportFolder, WithOtherFilesIsRefused) {
 TEST_F(ReportFolder, ThatIsAFileIsRefused) {
   std::ofstream(folder.string()) << "mine";
   EXPECT_THROW(refuse_foreign_folder(folder), Error);
+}
+
+TEST_F(ReportFolder, ThatIsUnfinishedIsMarkedAndRefused) {
+  fs::create_directories(folder / "report.html");  // so that this file can't be written
+  std::ofstream(folder / "summary.json") << R"({"made_by": "heft analyse"})";
+  EXPECT_THROW(write_report(summary_with_everything(), folder), Error);
+  EXPECT_TRUE(fs::exists(folder / "jnd.csv"));
+  EXPECT_THAT(read("report_unfinished.txt"), HasSubstr("incomplete"));
+  fs::remove(folder / "report.html");
+  try {
+    refuse_foreign_folder(folder);
+    FAIL() << "it is taken for a complete report";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("an unfinished report. Delete it"));
+  }
 }
 
 TEST_F(ReportFolder, OverAnOlderOneLeavesNothingOfIt) {

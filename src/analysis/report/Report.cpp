@@ -24,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::string_view summary_file = "summary.json";
 constexpr std::string_view files_key = "files";
+constexpr std::string_view unfinished_file = "report_unfinished.txt";
 
 // The summary.json that an earlier analysis left; null where there is none.
 nlohmann::json earlier_summary(const fs::path& folder) {
@@ -65,6 +66,16 @@ class Folder {
     files_.push_back(chart.name + ".svg");
     return read_text_file(path_ / files_.back());
   }
+
+  // Until finish() the folder is marked, so that an interrupted report is not taken for a whole.
+  void begin() {
+    write(std::string(unfinished_file),
+          "heft analyse is writing to this folder or was interrupted; the files are incomplete. If "
+          "no analysis is running, delete the folder and analyse again.\n");
+    files_.clear();
+  }
+
+  void finish() { fs::remove(path_ / unfinished_file); }
 
   const std::vector<std::string>& files() const { return files_; }
 
@@ -280,6 +291,10 @@ void refuse_foreign_folder(const std::string& folder) {
   if (!fs::exists(path)) return;
   if (!fs::is_directory(path))
     throw Error(fmt::format("--out {}: it is a file, expected a folder", folder));
+  if (fs::exists(path / unfinished_file))
+    throw Error(fmt::format(
+        "--out {}: the folder holds an unfinished report. Delete it or name a new folder.",
+        folder));
   if (fs::is_empty(path) || earlier_summary(path).is_object()) return;
   throw Error(
       fmt::format("--out {}: the folder holds files that heft analyse did not make, and "
@@ -292,8 +307,9 @@ ReportResult write_report(const Summary& summary, const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw Error(fmt::format("can't make the folder {}: {}", folder, error.message()));
-  remove_earlier_files(folder);
   Folder out(folder);
+  out.begin();
+  remove_earlier_files(folder);
   ReportResult result;
   write_tables(out, summary);
   std::vector<DrawnChart> drawn;
@@ -306,6 +322,7 @@ ReportResult write_report(const Summary& summary, const std::string& folder) {
   auto json = nlohmann::ordered_json::parse(as_json(summary));
   json[std::string(files_key)] = out.files();
   out.write(std::string(summary_file), json.dump(2) + '\n');
+  out.finish();
   result.files = out.files();
   return result;
 }

@@ -18,8 +18,8 @@ struct ReportResult {
 };
 
 /// Writes into `folder`, which is made if need be. A folder that an earlier analysis made is
-/// replaced.
-/// @throws Error when the folder holds anything else, or can't be written
+/// replaced. Meanwhile the folder holds report_unfinished.txt.
+/// @throws Error when the folder holds anything else or an unfinished report, or can't be written
 ReportResult write_report(const Summary& summary, const std::string& folder);
 
 /// Whether write_report would refuse the folder; for asking before a long analysis.
