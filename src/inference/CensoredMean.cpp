@@ -117,8 +117,9 @@ std::optional<CensoredMean> of_logarithms(double log_mean, double sigma, Interva
   const CensoredMean found{mean,
                            mean * std::sqrt(std::expm1(sigma * sigma)),
                            {std::exp(log_interval.low), std::exp(log_interval.high)}};
-  if (!std::isfinite(found.sd) || !std::isfinite(found.interval.high)) return std::nullopt;
-  return found;
+  constexpr double widest = 1e5;
+  const bool is_bounded = found.interval.high < widest * found.interval.low;
+  return is_bounded && std::isfinite(found.sd) ? std::optional(found) : std::nullopt;
 }
 
 // Requires more than half of the values to be exact.

@@ -37,9 +37,9 @@ struct CensoredMean {
 };
 
 /// None if the data do not determine it: half of the values or more are censored or missing; fewer
-/// than two exact ones that differ, or for log_normal fewer than three or an infinite interval. A
-/// log-normal figure is positive: an exact 0, or one below 0, counts as below the smallest positive
-/// value.
+/// than two exact ones that differ, or for log_normal fewer than three or an interval whose limits
+/// are a factor of 100 000 or more apart: the mean is then the model's extrapolation. A log-normal
+/// figure is positive: an exact 0, or one below 0, counts as below the smallest positive value.
 /// @param n_missing number of further, unknown values; they count as not exact
 std::optional<CensoredMean> censored_mean(std::span<const CensoredValue> values, int n_missing = 0,
                                           FigureModel model = FigureModel::normal);

@@ -138,18 +138,19 @@ SessionData with_jnds(std::int64_t id, const std::vector<std::pair<double, Censo
 TEST(Jnd, WhatLeansOnABoundIsCensoredAndCounted) {
   const std::vector sessions{
       with_jnds(1, {{60, Censored::none}}), with_jnds(2, {{80, Censored::none}}),
-      with_jnds(3, {{70, Censored::none}}), with_jnds(4, {{300, Censored::above}}),
-      with_jnds(5, {{5, Censored::below}})};
+      with_jnds(3, {{70, Censored::none}}), with_jnds(4, {{65, Censored::none}}),
+      with_jnds(5, {{75, Censored::none}}), with_jnds(6, {{100, Censored::above}}),
+      with_jnds(7, {{40, Censored::below}})};
   const ReferenceJnd jnd = jnd_of(sessions).at(0);
-  EXPECT_EQ(jnd.overall.n(), 5);
+  EXPECT_EQ(jnd.overall.n(), 7);
   EXPECT_EQ(jnd.overall.n_censored(Censored::above), 1);
   EXPECT_EQ(jnd.overall.n_censored(Censored::below), 1);
   EXPECT_EQ(jnd.overall.kind, MeanKind::log_normal_mean);
-  EXPECT_GT(*jnd.overall.mean, 70);  // not 70, as if they were not there, nor as if 300 were exact
+  EXPECT_GT(*jnd.overall.mean, 70);  // not 70, as if they were not there, nor as if 100 were exact
   EXPECT_LT(jnd.overall.interval->low, *jnd.overall.mean);
   EXPECT_GT(jnd.overall.interval->low, 0);
-  EXPECT_DOUBLE_EQ(*jnd.overall.by_paper.mean, (60 + 80 + 70 + 300 + 5) / 5.0);
-  EXPECT_EQ(jnd.overall.by_paper.n, 5);
+  EXPECT_DOUBLE_EQ(*jnd.overall.by_paper.mean, (60 + 80 + 70 + 65 + 75 + 100 + 40) / 7.0);
+  EXPECT_EQ(jnd.overall.by_paper.n, 7);
 }
 
 TEST(Jnd, ThePapersMeanTakesWhatTheLogHasAndCountsIt) {
@@ -174,7 +175,7 @@ TEST(Jnd, ThePapersMeanAveragesSessionsOfAParticipant) {
 
 TEST(Jnd, WhereHalfAreCensoredOrMissingThereIsNoMean) {
   std::vector sessions{with_jnds(1, {{60, Censored::none}}), with_jnds(2, {{80, Censored::none}}),
-                       with_jnds(3, {{300, Censored::above}}), with_jnds(4, {{1, Censored::none}})};
+                       with_jnds(3, {{90, Censored::above}}), with_jnds(4, {{70, Censored::none}})};
   EXPECT_TRUE(jnd_of(sessions).at(0).overall.mean.has_value());
   sessions[3].estimates.clear();  // unfinished
   const ReferenceJnd jnd = jnd_of(sessions).at(0);

@@ -62,7 +62,8 @@ TEST(LogNormalMean, IsThatOfR) {  // tests/golden/analysis/tobit.R
 }
 
 TEST(LogNormalMean, HasAPositiveInterval) {
-  const std::vector<CensoredValue> values{{5}, {12}, {150}, {20}, {2, Censored::below}};
+  const std::vector<CensoredValue> values{{5},  {12}, {80}, {20},
+                                          {30}, {8},  {60}, {2, Censored::below}};
   EXPECT_LT(censored_mean(values)->interval.low, 0) << "the normal model";
   const auto found = censored_mean(values, 0, FigureModel::log_normal);
   EXPECT_GT(found->interval.low, 0);
@@ -101,6 +102,15 @@ TEST(LogNormalMean, NeedsThreeExactValues) {
 TEST(LogNormalMean, IsFinite) {
   const std::vector<CensoredValue> values{{1e-300}, {1}, {1e300}};
   EXPECT_FALSE(censored_mean(values, 0, FigureModel::log_normal));
+}
+
+TEST(LogNormalMean, IsNoneWhereItsIntervalHasHardlyALimit) {
+  std::vector<CensoredValue> values{{21.9}, {32.1}, {36.9}, {26.7}};
+  EXPECT_TRUE(censored_mean(values, 0, FigureModel::log_normal).has_value());
+  values.push_back({244.1, Censored::above});
+  values.push_back({201.1, Censored::above});
+  EXPECT_FALSE(censored_mean(values, 0, FigureModel::log_normal).has_value())
+      << "else 200 [43, 256141738]";
 }
 
 TEST(MeanFigure, IsKnownOnTheSideOnWhichItsPartsAre) {
