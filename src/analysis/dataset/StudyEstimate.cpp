@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "base/math/Quantiles.h"
 
@@ -84,20 +85,47 @@ StudyEstimate own_share(const Measure& measure, const std::string& participant,
   return own;
 }
 
+namespace {
+// Why participants have no value; with different reasons, how many have each, the most frequent
+// first.
+std::string reasons_of(const std::vector<const StudyEstimate*>& people) {
+  std::vector<std::pair<std::string, int>> reasons;
+  for (const StudyEstimate* own : people) {
+    if (own->value || own->why.empty()) continue;
+    const auto found = std::ranges::find(reasons, own->why, &std::pair<std::string, int>::first);
+    if (found == reasons.end())
+      reasons.emplace_back(own->why, 1);
+    else
+      found->second += 1;
+  }
+  std::ranges::stable_sort(reasons, std::greater(), &std::pair<std::string, int>::second);
+  if (reasons.size() == 1) return reasons.front().first;
+  std::string text;
+  for (const auto& [why, n] : reasons)
+    text += fmt::format("{}{} ({})", text.empty() ? "" : "; ", why, n);
+  return text;
+}
+
+// Equal values say nothing about how people differ: an interval of no width would be wrong.
+std::optional<Interval> interval_over(const std::vector<double>& values) {
+  constexpr double rounding = 1e-12;
+  if (sample_sd(values).value_or(0) <= rounding * std::abs(*mean(values))) return std::nullopt;
+  return student_t_interval(values);
+}
+}  // namespace
+
 StudyEstimate mean_over_people(const std::vector<const StudyEstimate*>& people, bool of_logs) {
   StudyEstimate estimate = *people.front();
   std::vector<double> values;
-  std::string why;
   estimate.n_trials = 0;
   for (const StudyEstimate* own : people) {
     estimate.n_trials += own->n_trials;
     if (own->value) values.push_back(of_logs ? std::log(*own->value) : *own->value);
-    if (!own->why.empty()) why = own->why;
   }
   estimate.participant.clear();
   estimate.value = mean(values);
   estimate.low = estimate.high = std::nullopt;  // those of the first
-  estimate.set(student_t_interval(values));
+  if (!values.empty()) estimate.set(interval_over(values));
   if (!of_logs) estimate.sd = sample_sd(values);
   for (auto* figure : {&estimate.value, &estimate.low, &estimate.high})
     if (of_logs && *figure) *figure = std::exp(**figure);
@@ -105,7 +133,7 @@ StudyEstimate mean_over_people(const std::vector<const StudyEstimate*>& people, 
   estimate.method = "Student's t";
   if (values.size() < people.size())
     estimate.why = fmt::format("{} of {} participants have none: {}", people.size() - values.size(),
-                               people.size(), why);
+                               people.size(), reasons_of(people));
   return estimate;
 }
 

@@ -91,7 +91,18 @@ TEST(SameDifferent, IsMeanOverParticipantsWhoHaveAThreshold) {
   EXPECT_NEAR(*threshold.value, 51.30688, 1e-4);
   EXPECT_EQ(threshold.n, 2);
   EXPECT_THAT(threshold.why, testing::HasSubstr("1 of 3 participants have none"));
-  EXPECT_THAT(readable(summary), testing::HasSubstr("participants that can be estimated"));
+  EXPECT_THAT(readable(summary), testing::HasSubstr("over the 2 participants that"));
+}
+
+TEST(SameDifferent, CountsEachReasonForWhichParticipantsHaveNoThreshold) {
+  const Counts of_coin{{0, {20, 20}}, {160, {20, 20}}}, of_one_answer{{0, {0, 40}}, {160, {0, 40}}};
+  const Summary summary = summarized({judge(1, "a", sensitive), judge(2, "always", of_one_answer),
+                                      judge(3, "coin", of_coin), judge(4, "other coin", of_coin)});
+  const StudyEstimate threshold =
+      figure(summary, "same_different_threshold_75", {{"participant", ""}});
+  EXPECT_THAT(threshold.why,
+              testing::MatchesRegex("3 of 4 participants have none: no reliable sensitivity.* "
+                                    "\\(2\\); all answers are the same.* \\(1\\)"));
 }
 
 TEST(SameDifferent, OneThresholdAmongPeopleHasNoInterval) {
