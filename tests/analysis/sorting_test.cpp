@@ -118,6 +118,16 @@ TEST(Sorting, CountsSwapsOfIncorrectTrials) {
   EXPECT_THAT(swaps, ElementsAre(1, 0, 0, 0));
 }
 
+TEST(Sorting, SwapsAreOfThreeCubesOnly) {
+  SessionData data = session(1, "a");
+  add_sorting(data, "C2", "incorrect").cubes = cubes({15, 100, 250, 800});
+  const Summary of_four = summarized({data});
+  EXPECT_TRUE(estimates_of(of_four.estimates, "sorting_swapped").empty());
+  EXPECT_EQ(readable(of_four).find("Incorrect sortings of three cubes"), std::string::npos);
+  add_sorting(data, "C2", "incorrect").answers = {label(1, I), label(2, L), label(3, H)};
+  EXPECT_EQ(figure({data}, "sorting_n_incorrect").value, 1) << "of three cubes";
+}
+
 TEST(Sorting, ChanceIsOneOfTheOrdersOfAsManyCubes) {
   SessionData data = session(1, "a");
   const auto chance = [&] { return figure({data}, "sorting_chance").value; };

@@ -26,7 +26,7 @@ constexpr Measure equivalence{"sorting_equivalence", "%", "correct, of answered"
                               "share of answered trials sorted correctly, with its 90 % interval, "
                               "for the test of equivalence to chance"};
 constexpr Measure n_incorrect{"sorting_n_incorrect", "", "incorrect",
-                              "number of trials sorted incorrectly"};
+                              "number of trials of three cubes sorted incorrectly"};
 constexpr Measure swapped{
     "sorting_swapped", "", "exchanged",
     "number of incorrect trials of three cubes by the pair that was exchanged"};
@@ -52,6 +52,7 @@ void count_labels(LabelMatrices& matrices, std::span<const double> masses_g,
 // Completed trials of one condition. A participant's sessions count together.
 struct Counted {
   Tallies correct, incorrect, none, answered_correct, answered_incorrect;
+  int n_incorrect_of_three = 0;
   std::array<int, 4> swaps{};
   std::map<int, int> n_trials_by_cubes;
   LabelMatrices labels;
@@ -69,7 +70,8 @@ struct Counted {
     const std::vector<double> masses_g = attempt.masses_g();
     const auto given = final_labels(attempt.answers, static_cast<int>(masses_g.size()));
     count_labels(labels, masses_g, given);
-    if (outcome != "incorrect") return;
+    if (outcome != "incorrect" || masses_g.size() != 3) return;
+    n_incorrect_of_three += 1;
     if (const auto swap = swap_of(masses_g, given)) swaps.at(static_cast<std::size_t>(*swap)) += 1;
   }
 };
@@ -141,18 +143,17 @@ void put_condition(Estimates& all, const std::string& condition, const Counted& 
     estimate.n = correct.n;
     put(std::move(estimate));
   };
-  const StudyEstimate incorrect =
-      share(found.incorrect, "all", "incorrect", paper ? &paper->incorrect : nullptr);
   put(correct);
-  put(incorrect);
+  put(share(found.incorrect, "all", "incorrect", paper ? &paper->incorrect : nullptr));
   put(share(found.none, "all", "I don't know", paper ? &paper->none : nullptr));
   put(share(found.answered_correct, "answered", "correct",
             paper && paper->answered_correct ? &*paper->answered_correct : nullptr));
   put(share(found.answered_incorrect, "answered", "incorrect", nullptr));
   put(equivalence_of(found.answered_correct));
   for (StudyEstimate& one : chances_of(found.n_trials_by_cubes)) put_of_all(std::move(one));
-  put_of_all(counted(n_incorrect, {}, incorrect.n_hits));
-  for (std::size_t i = 0; i < found.swaps.size(); ++i)
+  const bool any_of_three = found.n_trials_by_cubes.contains(3);
+  if (any_of_three) put_of_all(counted(n_incorrect, {}, found.n_incorrect_of_three));
+  for (std::size_t i = 0; any_of_three && i < found.swaps.size(); ++i)
     put_of_all(counted(swapped, {{"exchanged", std::string(EnumNames<Swap>::names.at(i))}},
                        found.swaps.at(i)));
   for (const auto& [n_cubes, matrix] : found.labels) {
@@ -334,8 +335,7 @@ class SortingSection final : public Section {
       parts.push_back(condition_in_words(summary, one->condition));
       chances.insert(chance_in_words(summary, one->condition));
     }
-    constexpr std::size_t max_shown = 4;
-    const std::size_t n_more = parts.size() > max_shown ? parts.size() - max_shown : 0;
+    const std::size_t n_more = parts.size() - std::min(parts.size(), std::size_t{4});  // not shown
     parts.resize(parts.size() - n_more);
     std::string text = fmt::format("Sorting: {}", fmt::join(parts, "; "));
     if (n_more > 0) text += fmt::format("; {} more conditions in the tables", n_more);
