@@ -323,8 +323,26 @@ void Jnds::put_means(FigureModel model) {
               static_cast<int>(as_logged_g_.size())};
 }
 
+namespace {
+std::string why_no_mean(const Jnds& jnds) {
+  const int n_above = jnds.n_censored(Censored::above), n_below = jnds.n_censored(Censored::below);
+  const int n_missing = static_cast<int>(jnds.missing.size());
+  const int n_exact = jnds.n() - n_above - n_below - n_missing;
+  if (2 * n_exact > jnds.n())
+    return "the limits of its interval are more than a factor of 100 000 apart";
+  std::string others;
+  for (const auto& [n, what] : {std::pair{n_above, "above a limit"},
+                                {n_below, "below a limit"},
+                                {n_missing, "indeterminate"}})
+    if (n > 0) others += fmt::format(", {} in {}", what, n);
+  return fmt::format("exact in {} of {} participants{}; a mean needs more than half", n_exact,
+                     jnds.n(), others);
+}
+}  // namespace
+
 void set_mean(StudyEstimate& estimate, const Jnds& jnds) {
   estimate.value = jnds.mean;
+  if (!jnds.mean) estimate.why = why_no_mean(jnds);
   estimate.sd = jnds.sd;
   estimate.set(jnds.interval);
   estimate.n = jnds.n();

@@ -10,6 +10,7 @@
 
 #include "analysis/display/Phrases.h"
 #include "analysis/measures/Section.h"
+#include "tasks/Judgment.h"
 
 namespace heft {
 
@@ -27,7 +28,8 @@ using Cube = std::pair<double, std::optional<double>>;  // mass and own friction
 
 struct Shown {
   std::string block, condition;
-  std::vector<Cube> cubes;  // from light to heavy
+  std::optional<double> reference_g;  // of a procedure that compares with a cube
+  std::vector<Cube> cubes;            // from light to heavy
   auto operator<=>(const Shown&) const = default;
 };
 
@@ -46,6 +48,8 @@ Coordinate coordinate_of(const std::vector<Cube>& cubes) {
 struct Answers {
   std::optional<FormQuestion> question;  // none: the log's texts lack it
   bool are_chosen = false;               // places among the choices
+  // Instead of the question's choices: which cube was chosen, whatever its side.
+  std::vector<std::pair<double, std::string>> cubes;
   std::map<std::string, std::vector<double>> people;
 
   bool has_logarithms() const {
@@ -53,6 +57,7 @@ struct Answers {
   }
   // Choices in the question's order; if it is unknown, those that were given.
   std::vector<std::pair<double, std::string>> choices() const {
+    if (!cubes.empty()) return cubes;
     std::vector<std::pair<double, std::string>> all;
     if (question) {
       for (const AnswerChoice& choice : question->choices)
@@ -66,8 +71,28 @@ struct Answers {
   }
 };
 
+// The answer to a procedure's pair of cubes, whose sides are random, as the cube that it chooses: 1
+// the comparison, 2 the reference, 3 neither. None: answers of this question choose no cube.
+std::optional<double> chosen_cube(const TrialRow& trial, const JudgmentOffer& asked) {
+  if (!trial.plan.reference_g || !trial.plan.reference_slot) return std::nullopt;
+  const auto meaning =
+      meaning_of(asked.responses, Judgment::choice_of(asked.question, *trial.value));
+  if (meaning == Meaning::none) return 3;
+  if (meaning != Meaning::left && meaning != Meaning::right) return std::nullopt;
+  return *trial.plan.reference_slot == (meaning == Meaning::left ? 1 : 2) ? 2 : 1;
+}
+
+std::vector<std::pair<double, std::string>> cubes_to_choose(const Meanings& responses) {
+  std::vector<std::pair<double, std::string>> all{{1, "comparison"}, {2, "reference"}};
+  for (const auto& [answer, meaning] : responses)
+    if (meaning == Meaning::none && all.size() < 3) all.emplace_back(3, answer);
+  return all;
+}
+
 std::string in_brackets(const StudyEstimate& one) {
-  return one.low ? fmt::format(" [{:.3g}, {:.3g}]", *one.low, *one.high) : "";
+  if (!one.low) return "";
+  return one.measure == &share ? fmt::format(" [{:.0f}, {:.0f}]", *one.low, *one.high)
+                               : fmt::format(" [{:.3g}, {:.3g}]", *one.low, *one.high);
 }
 
 class JudgmentSection final : public Section {
@@ -76,15 +101,23 @@ class JudgmentSection final : public Section {
     for (const Attempt& attempt : data.attempts) {
       const TrialRow& trial = attempt.trial;
       if (!attempt.completed() || trial.plan.task != "judgment" || !trial.value) continue;
-      Shown shown{trial.plan.block, trial.plan.condition, {}};
+      Shown shown{trial.plan.block, trial.plan.condition, trial.plan.reference_g, {}};
       for (const CubeRow& cube : attempt.cubes)
         shown.cubes.emplace_back(cube.mass_g, cube.table_friction);
       std::ranges::sort(shown.cubes);
       Answers& answers = by_shown_[shown];
-      if (const auto asked = data.judgments.find(shown.block); asked != data.judgments.end())
+      double value = *trial.value;
+      if (const auto asked = data.judgments.find(shown.block); asked != data.judgments.end()) {
         answers.question = asked->second.question;
+        if (const auto cube = chosen_cube(trial, asked->second)) {
+          value = *cube;
+          answers.cubes = cubes_to_choose(asked->second.responses);
+        }
+      }
       answers.are_chosen = trial.outcome == "chosen";
-      answers.people[data.participant()].push_back(*trial.value);
+      answers.people[data.participant()].push_back(value);
+      if (!trial.plan.staircase.empty() && !data.without_jnd.contains(trial.plan.staircase))
+        have_thresholds_.insert(shown.block);
     }
   }
 
@@ -117,6 +150,7 @@ class JudgmentSection final : public Section {
     std::map<std::string, std::vector<std::string>> parts;  // by block
     for (const StudyEstimate& one : summary.estimates) {
       if ((one.measure != &mean_answer && one.measure != &share) || !one.value) continue;
+      if (have_thresholds_.contains(one.text_at("block"))) continue;
       const std::string what =
           one.measure == &share ? fmt::format("{:.0f} % \"{}\"", *one.value, one.text_at("answer"))
                                 : fmt::format("{:.3g}", *one.value);
@@ -153,9 +187,11 @@ class JudgmentSection final : public Section {
     EstimateTable shares{"judgment_choices",
                          "Judgments: chosen answers by cubes",
                          place,
-                         "of all trials; 95 % intervals over participants",
+                         "of all trials; of a procedure's two cubes, whose sides are random, "
+                         "which one was chosen; 95 % intervals over participants",
                          TablePlace::results,
                          "judgment_choices[]"};
+    shares.columns.push_back(key_column("reference_g", "reference g"));
     shares.columns.push_back(key_column("answer", "answer"));
     for (EstimateColumn& one : std::vector{column(share, Field::n, "n_participants", "n"),
                                            column(share, Field::n_trials, "n_trials", "trials"),
@@ -208,6 +244,7 @@ class JudgmentSection final : public Section {
                      StudyEstimate estimate, const std::string* answer = nullptr) {
     estimate.task = "judgment";
     estimate.condition = shown.condition;
+    estimate.reference_g = shown.reference_g;
     estimate.by = {{"block", shown.block},
                    {"question", answers.question ? answers.question->key : ""},
                    coordinate_of(shown.cubes)};
@@ -237,6 +274,7 @@ class JudgmentSection final : public Section {
   }
 
   std::map<Shown, Answers> by_shown_;
+  std::set<std::string> have_thresholds_;  // blocks whose result is the procedures' threshold
 };
 }  // namespace
 

@@ -53,14 +53,19 @@ class JudgmentThresholdSection final : public Section {
   std::vector<std::string> findings(const Summary& summary) const override {
     std::vector<std::string> sentences;
     for (const StudyEstimate& one : summary.estimates) {
-      if (one.measure != &threshold || !one.value) continue;
+      if (one.measure != &threshold) continue;
       const std::string beside =
           one.reference_g ? fmt::format(" more than {:g} g", *one.reference_g) : "";
       const std::string interval =
           one.low ? fmt::format(" [{:.0f}, {:.0f}]", *one.low, *one.high) : "";
-      sentences.push_back(fmt::format("Threshold of \"{}\" ({}): {:.0f} g{}{} {}.",
-                                      one.text_at("block"), one.text_at("method"), *one.value,
-                                      interval, beside, in_condition(summary, one.condition)));
+      const std::string found =
+          one.value ? fmt::format("{:.0f} g{}{}", *one.value, interval, beside)
+                    : "not identifiable" +
+                          (one.reference_g ? fmt::format(" at {:g} g", *one.reference_g) : "");
+      const std::string why = one.value ? "" : fmt::format(" ({})", one.why);
+      sentences.push_back(fmt::format("Threshold of \"{}\" ({}): {} {}{}.", one.text_at("block"),
+                                      one.text_at("method"), found,
+                                      in_condition(summary, one.condition), why));
     }
     return sentences;
   }
@@ -87,6 +92,7 @@ class JudgmentThresholdSection final : public Section {
                      column(n_censored, Field::value, "n_censored", "censored", 0),
                      column(n_missing, Field::value, "n_missing", "missing", 0)})
       means.columns.push_back(std::move(one));
+    means.columns.push_back(column(threshold, Field::why, "why", "no threshold: why"));
     EstimateTable people{"judgment_threshold_by_participant", "Each participant's thresholds",
                          place, "", TablePlace::csv};
     people.participants = true;

@@ -116,5 +116,50 @@ TEST(JudgmentShares, AreOfWordsInTheQuestionsOrder) {
       << "without the question answers are named by their places";
 }
 
+TEST(JudgmentMeans, OfEqualAnswersHaveNoInterval) {
+  SessionData one = session(1, "one"), other = session(2, "other");
+  for (SessionData* data : {&one, &other}) add_judgment(*data, {100}, 3);
+  const StudyEstimate mean = figure({one, other}, "judgment_mean", {{"participant", ""}});
+  EXPECT_EQ(*mean.value, 3);
+  EXPECT_FALSE(mean.low || mean.high) << "an interval of no width";
+}
+
+// The heavier comparison is on either side, and always chosen.
+SessionData paired_by_procedure() {
+  SessionData data = session(1, "one");
+  FormQuestion asked = question(QuestionKind::choice);
+  asked.choices = {{"l", "Left"}, {"r", "Right"}};
+  data.judgments["pairs"] = {asked, {{"l", Meaning::left}, {"r", Meaning::right}}};
+  for (const int reference_slot : {1, 2}) {
+    Attempt& attempt = add_judgment(data, {200, 250}, reference_slot == 1 ? 2 : 1);
+    attempt.trial.outcome = "chosen";
+    attempt.trial.plan.staircase = "pair";
+    attempt.trial.plan.reference_g = 200;
+    attempt.trial.plan.reference_slot = reference_slot;
+    attempt.trial.plan.level_g = 50;
+  }
+  return data;
+}
+
+TEST(JudgmentShares, OfAProceduresPairsAreOfTheCubesNotOfTheirSides) {
+  const Summary summary = summarized({paired_by_procedure()});
+  const auto of = [&](const char* answer) {
+    return figure(summary, "judgment_share", {{"answer", answer}, {"reference_g", "200"}});
+  };
+  EXPECT_EQ(of("comparison").value, 100);
+  EXPECT_EQ(of("reference").value, 0);
+  EXPECT_FALSE(of("l").measure);
+}
+
+TEST(JudgmentShares, AreNoFindingWhereAThresholdIs) {
+  const auto mentioned = [](const SessionData& data) {
+    return readable(summarized({data})).find("Judgment \"pairs\"") != std::string::npos;
+  };
+  SessionData data = paired_by_procedure();
+  EXPECT_FALSE(mentioned(data));
+  data.without_jnd = {"pair"};
+  EXPECT_TRUE(mentioned(data)) << "of constant stimuli there is no threshold";
+}
+
 }  // namespace
 }  // namespace heft

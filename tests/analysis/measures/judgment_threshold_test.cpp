@@ -54,6 +54,23 @@ TEST(JudgmentThreshold, IsAMeanOverPeopleApartByBlock) {
   EXPECT_EQ(comparisons.jnds().size(), 1u) << "judgments are no JNDs of comparisons";
 }
 
+TEST(JudgmentThreshold, ThatIsNotIdentifiableHasAReason) {
+  SessionData one = session(1, "one"), other = session(2, "other");
+  for (SessionData* data : {&one, &other}) add_threshold(*data, "heavy", std::nullopt, 100);
+  other.estimates.back().n_reversals = 1;
+  other.estimates.back().n_floor = 3;
+  other.estimates.back().censored = Censored::below;
+  const Summary summary = summarized({one, other});
+  const StudyEstimate found =
+      figure(summary, "judgment_threshold", {{"block", "heavy"}, {"participant", ""}});
+  EXPECT_FALSE(found.value.has_value());
+  EXPECT_EQ(found.why,
+            "exact in 1 of 2 participants, below a limit in 1; a mean needs more than "
+            "half");
+  EXPECT_THAT(readable(summary),
+              testing::HasSubstr("Threshold of \"heavy\" (mean_of_reversals): not identifiable"));
+}
+
 TEST(JudgmentThreshold, NotesMethodsOnlyWhereThoseOfOneJudgmentDiffer) {
   SessionData one = session(1, "one"), other = session(2, "other");
   for (SessionData* data : {&one, &other}) {
