@@ -126,6 +126,7 @@ std::vector<EstimatePrecision> estimates_of(const Findings& studies) {
     StudyEstimate place;
     const StudyFindings* last = nullptr;
     std::vector<double> values, lows, highs;
+    bool has_method = false;  // of its interval, which a count never has
   };
   std::map<Key, std::size_t> index;
   std::vector<Collected> collected;
@@ -134,10 +135,11 @@ std::vector<EstimatePrecision> estimates_of(const Findings& studies) {
       const auto [found, is_new] = index.try_emplace(
           {one.measure->name, one.task, one.condition, one.reference_g, text_of(one.by)},
           collected.size());
-      if (is_new) collected.push_back({place_of(one), nullptr, {}, {}, {}});
+      if (is_new) collected.push_back({place_of(one), nullptr, {}, {}, {}, false});
       Collected& at = collected[found->second];
       const bool is_first = at.last != study;  // others of the same place are variants
       at.last = study;
+      at.has_method = at.has_method || !one.method.empty();
       if (!is_first || !one.value || !one.low || !one.high) continue;
       at.values.push_back(*one.value);
       at.lows.push_back(*one.low);
@@ -145,7 +147,8 @@ std::vector<EstimatePrecision> estimates_of(const Findings& studies) {
     }
   std::vector<EstimatePrecision> all;
   for (const Collected& one : collected) {
-    if (one.values.empty() && one.place.measure->unit.empty()) continue;  // a count
+    const bool is_count = one.place.measure->unit.empty() && !one.has_method;
+    if (one.values.empty() && is_count) continue;
     all.push_back({one.place,
                    {static_cast<int>(one.values.size()), static_cast<int>(studies.size())},
                    median_of(one.values),

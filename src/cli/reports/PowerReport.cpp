@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/charts/Plot.h"
+#include "analysis/display/Table.h"
 #include "cli/console/Terminal.h"
 #include "cli/reports/Reports.h"
 #include "population/Power.h"
@@ -14,9 +16,13 @@ namespace heft::cli {
 
 namespace {
 using nlohmann::ordered_json;
+using namespace std::string_view_literals;
 
 constexpr double wanted_power = 0.8;
 constexpr std::size_t most_columns = 3;  // of the first screen
+constexpr std::size_t most_rows = 10;    // of its figures
+constexpr std::size_t name_width = 20;
+constexpr std::size_t screen_width = 80;
 
 double share_of(const HypothesisPower& power) {
   return power.supported.percent() / 100;
@@ -42,9 +48,47 @@ std::string full_name_of(const EstimatePrecision& one) {
   return text;
 }
 
+bool is_correct_sorting(const EstimatePrecision& one) {
+  return one.place.measure->name == "sorting_answers" && one.place.text_at("trials") == "all" &&
+         one.place.text_at("answer") == "correct";
+}
+
 bool is_main(const EstimatePrecision& one) {
-  const std::string_view name = one.place.measure->name;
-  return name == "threshold_75" || name == "jnd";
+  constexpr std::array names{"threshold_75"sv,        "jnd"sv,
+                             "forced_threshold_75"sv, "same_different_threshold_75"sv,
+                             "judgment_threshold"sv,  "judgment_mean"sv,
+                             "estimation_exponent"sv, "adjustment_bias_percent"sv};
+  return std::ranges::count(names, one.place.measure->name) > 0;
+}
+
+// In g, and positive: it can be compared as a ratio.
+bool is_main_mass(const EstimatePrecision& one) {
+  return is_main(one) && one.place.measure->unit == "g";
+}
+
+// Of comparisons the variants of a figure have the same name, and the first one is enough.
+std::string short_name_of(const EstimatePrecision& one) {
+  return one.place.task == "comparison" ? name_of(one) : full_name_of(one);
+}
+
+// The figures of the first screen. Sortings are in the hypotheses where these are the paper's.
+std::vector<const EstimatePrecision*> main_figures(const PowerAtSize& size) {
+  std::vector<const EstimatePrecision*> figures;
+  for (const EstimatePrecision& one : size.estimates)
+    if (is_main(one) && (figures.empty() || short_name_of(*figures.back()) != short_name_of(one)))
+      figures.push_back(&one);
+  if (figures.empty())
+    for (const EstimatePrecision& one : size.estimates)
+      if (is_correct_sorting(one)) figures.push_back(&one);
+  return figures;
+}
+
+// A name that is too long for its column takes a separate line.
+void print_name(const std::string& name) {
+  if (name.size() > name_width)
+    print("{}\n{:<{}}", name, "", name_width);
+  else
+    print("{:<{}}", name, name_width);
 }
 
 bool is_same(const EstimatePrecision& a, const EstimatePrecision& b) {
@@ -97,7 +141,7 @@ void print_table(const ModelPower& found, bool tables) {
   const auto columns = columns_of(found, tables);
   const PowerAtSize& largest = found.power.sizes.back();
   const auto head = [&](const char* what) {
-    print("\n{:<20}", what);
+    print("\n{:<{}}", what, name_width);
     for (const PowerAtSize* size : columns)
       print(" {:>19}", fmt::format("{} {}", size->participants,
                                    found.whole && size == &*found.whole ? "whole" : "people"));
@@ -105,20 +149,26 @@ void print_table(const ModelPower& found, bool tables) {
   };
   if (!largest.hypotheses.empty()) head("hypothesis supported");
   for (const HypothesisPower& one : largest.hypotheses) {
-    print("{:<20}", one.name + (one.declared ? " (declared)" : ""));
+    print_name(one.name + (one.declared ? " (declared)" : ""));
     for (const PowerAtSize* size : columns) print(" {:>19}", cell(at_size(*size, one.name)));
     print("\n");
   }
-  head("figure [interval]");
-  std::string last;
-  for (const EstimatePrecision& one : largest.estimates) {
-    if (!tables && (!is_main(one) || name_of(one) == last)) continue;
-    if (tables && one.printed.n_hits == 0 && !is_main(one)) continue;
-    last = name_of(one);
-    print("{:<20}", tables ? full_name_of(one) : last);
-    for (const PowerAtSize* size : columns) print(" {:>19}", cell(at_size(*size, one)));
+  std::vector<const EstimatePrecision*> figures = main_figures(largest);
+  if (tables) {
+    figures.clear();
+    for (const EstimatePrecision& one : largest.estimates)
+      if (one.printed.n_hits > 0 || is_main(one)) figures.push_back(&one);
+  }
+  const std::size_t n_left_out =
+      tables || figures.size() <= most_rows ? 0 : figures.size() - most_rows;
+  figures.resize(figures.size() - n_left_out);
+  if (!figures.empty()) head("figure [interval]");
+  for (const EstimatePrecision* one : figures) {
+    print_name(tables ? full_name_of(*one) : short_name_of(*one));
+    for (const PowerAtSize* size : columns) print(" {:>19}", cell(at_size(*size, *one)));
     print("\n");
   }
+  if (n_left_out > 0) print("{} more: --tables\n", n_left_out);
 }
 
 // Which hypotheses the largest study is likely to support.
@@ -141,14 +191,15 @@ std::string sentence_of_precision(const PowerAtSize& size) {
     return std::sqrt(one.median_high / one.median_low);
   };
   for (const EstimatePrecision& one : size.estimates)
-    if (is_main(one) && one.printed.n_hits > 0 && one.median_low > 0 &&
+    if (is_main_mass(one) && one.printed.n_hits > 0 && one.median_low > 0 &&
         (!widest || factor(one) > factor(*widest)))
       widest = &one;
   if (!widest) return "";
-  return fmt::format(
-      "Least certain with {} people: {}, to within a factor of {:.2g}\n(printed in {:.0f} % of "
-      "studies).\n",
-      size.participants, name_of(*widest), factor(*widest), widest->printed.percent());
+  const std::string text = fmt::format(
+      "Least certain with {} people: {}, to within a factor of {:.2g} (printed in {:.0f} % of "
+      "studies).",
+      size.participants, short_name_of(*widest), factor(*widest), widest->printed.percent());
+  return fmt::format("{}\n", fmt::join(heft::wrapped(text, screen_width), "\n"));
 }
 
 ordered_json object_of(const HypothesisPower& one) {
@@ -202,8 +253,10 @@ std::string lines_of(const std::vector<std::string>& names, const std::string& p
 
 void print_power(const ModelPower& found, bool tables) {
   const Power& power = found.power;
-  print("protocol {}, model {}: {} simulated studies of each size (--seed {})\n", found.protocol,
-        found.model, power.n_studies, found.seed);
+  const std::string heading =
+      fmt::format("protocol {}, model {}: {} simulated studies of each size (--seed {})",
+                  found.protocol, found.model, power.n_studies, found.seed);
+  print("{}\n", fmt::join(heft::wrapped(heading, screen_width), "\n"));
   print_table(found, tables);
   print("\n");
   if (!power.sizes.back().hypotheses.empty())
@@ -269,13 +322,13 @@ ChartData data_of_hypotheses(const Power& power) {
 ChartData data_of_figures(const Power& power) {
   ChartData data{'f'};
   for (const EstimatePrecision& one : power.sizes.back().estimates) {
-    if (!is_main(one) || one.printed.n_hits == 0) continue;
+    if (!is_main_mass(one) || one.printed.n_hits == 0) continue;
     std::string rows;
     for (const PowerAtSize& size : power.sizes)
       if (const EstimatePrecision* at = at_size(size, one); at && at->printed.n_hits > 0)
         rows += fmt::format("{} {} {} {}\n", size.participants, at->median_value, at->median_low,
                             at->median_high);
-    data.add(name_of(one), rows);
+    data.add(short_name_of(one), rows);
   }
   return data;
 }

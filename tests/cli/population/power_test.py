@@ -27,6 +27,18 @@ class Power(SessionTest):
             self.assertIn(words, drawn)
         self.assertEqual([p.name for p in self.folder.glob("power*")], ["power.svg"])
 
+    def test_the_first_screen_has_the_figures_of_every_task(self):
+        for name, figure in (("judgment", "mean answer, judgment C2, pairs, heaviness, 50, 100"),
+                             ("judgment_staircase", "threshold of judgments, judgment C2, heavy"),
+                             ("estimation", "exponent, estimation C2"),
+                             ("adjustment", "bias in percent, adjustment C2 100 g"),
+                             ("forced_choice", "75 % threshold C2 200 g"),
+                             ("same_different", "75 % threshold C2 200 g")):
+            said = self.run_heft("power", PROTOCOLS / f"examples/{name}.toml", "--studies", 2,
+                                 "--participants", "3", "--seed", 7).stdout
+            self.assertIn(f"\n{figure}", said)
+            self.assertLessEqual(max(map(len, said.splitlines())), 80)
+
     def test_models_stand_in_json(self):
         words = [*SHORT, "--model", "simulated", "--model", "coin", "--json"]
         found = json.loads(self.run_heft(*words).stdout)
