@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "analysis/dataset/Published.h"
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/SimulationChoices.h"
@@ -185,8 +186,8 @@ bool has_compliant_contacts(const Protocol& protocol) {
 }
 
 // Warns of simulators that model one stroke or rigid contacts only, of settings that displace the
-// clone from the filmed effector, which participants interpret as mass, and of resets that reveal
-// it.
+// clone from the filmed effector, which participants interpret as mass, of resets that reveal it,
+// and of declared hypotheses that the protocol cannot test.
 std::vector<std::string> cautions(const Protocol& protocol) {
   constexpr double stroke_m_s = 0.3;
   const auto& [mode, predict_s] = protocol.simulator.input;
@@ -210,6 +211,9 @@ std::vector<std::string> cautions(const Protocol& protocol) {
     found.emplace_back(
         "[layout] out_of_area = \"return\", the default, reveals the mass: light "
         "cubes jump back in most trials, heavy ones hardly ever: use \"together\"");
+  for (const auto& [name, needs] : published::untestable_in(protocol))
+    found.push_back(
+        fmt::format("[analysis] declares {}, which cannot be tested: it needs {}", name, needs));
   if (predict_s > 0) {
     const Scene scene = scene_of(protocol, coupled_technique, {});
     const double ahead_m = stroke_m_s * predict_s;

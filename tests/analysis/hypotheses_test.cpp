@@ -1,4 +1,5 @@
 // Verdicts on the paper's hypotheses, and when they are inconclusive.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "MadeUpSessions.h"
@@ -71,6 +72,54 @@ TEST(HypothesesOfE2, AreNotJudgedByTheJnd) {
   EXPECT_EQ(summary.hypotheses[3].verdict, HypothesisVerdict::inconclusive);
   EXPECT_THAT(summary.hypotheses[3].why, HasSubstr("at 15 g there is no threshold ("));
   EXPECT_EQ(summary.hypotheses[4].verdict, HypothesisVerdict::inconclusive);
+}
+
+TEST(DeclaredHypotheses, WithoutTheirTrialsAreNamed) {
+  SessionData data = session(1, "1");
+  data.plan.emplace().tested = {true, true, false, false, false};
+  add_sorting(data, "C2", "correct").cubes = cubes({15, 300, 800});
+  EXPECT_EQ(inconclusive_sentence(summarize({"x.db", {data}}, "")),
+            "Declared but not tested, without trials of the paper's masses and technique: "
+            "hypotheses E1-H1, E1-H2.");
+}
+
+std::vector<std::string> untestable(const std::string& blocks) {
+  const Protocol protocol = parse_protocol(
+      "title = \"t\"\n[analysis]\nE1-H1 = true\nE1-H2 = true\nE1-H3 = true\nE2-H1 = true\n" +
+          blocks,
+      "t.toml");
+  std::vector<std::string> names;
+  for (const auto& [name, needs] : published::untestable_in(protocol)) names.emplace_back(name);
+  return names;
+}
+
+TEST(DeclaredHypotheses, NeedThePapersTrials) {
+  using testing::ElementsAre;
+  const auto sorting = [](const char* masses_g, const char* trials) {
+    return fmt::format("[[block]]\nkind = \"sorting\"\nname = \"s\"\nmasses_g = {}\ntrials = {}\n",
+                       masses_g, trials);
+  };
+  const auto staircase = [](int reference_g) {
+    return fmt::format(
+        "[[block.staircase]]\nname = \"{0}\"\nreference_g = {0}\nstart = 100\nstep = 10\nfloor = "
+        "0\n",
+        reference_g);
+  };
+  const auto comparison = [](const std::string& keys) {
+    return "[[block]]\nkind = \"comparison\"\nname = \"c\"\n" + keys;
+  };
+  EXPECT_THAT(untestable(sorting("[15, 200, 800]", "{ C2 = 2 }")),
+              ElementsAre("E1-H1", "E1-H3", "E2-H1"));
+  EXPECT_THAT(untestable(sorting("[15, 250, 800]", "{ C1 = 2, C2 = 2 }")),
+              ElementsAre("E1-H1", "E1-H2", "E1-H3", "E2-H1"));
+  EXPECT_THAT(
+      untestable("[[block]]\nkind = \"introduction\"\nname = \"i\"\nmasses_g = [800, 15]\n"),
+      ElementsAre("E1-H1", "E1-H2", "E2-H1"));
+  const std::string two = staircase(15) + staircase(200);
+  EXPECT_THAT(untestable(comparison(two)), ElementsAre("E1-H1", "E1-H2", "E1-H3"));
+  EXPECT_THAT(untestable(comparison(staircase(15) + staircase(100))), testing::Contains("E2-H1"));
+  EXPECT_THAT(untestable(comparison("answers = \"heavier\"\n" + two)), testing::Contains("E2-H1"));
+  EXPECT_THAT(untestable(comparison("condition = \"C1\"\n" + two)), testing::Contains("E2-H1"));
 }
 
 TEST(HypothesesJson, IsByName) {

@@ -1,6 +1,12 @@
 #include "analysis/dataset/Published.h"
 
+#include <algorithm>
+#include <set>
+
 #include "base/SimulationChoices.h"
+#include "tasks/Comparison.h"
+#include "tasks/Introduction.h"
+#include "tasks/Sorting.h"
 
 namespace heft::published {
 
@@ -33,6 +39,69 @@ void Comparable::add(std::optional<Condition> condition, bool masses_equal) {
   same_ = same_ && condition && masses_equal && (!any_ || condition == condition_);
   condition_ = condition;
   any_ = true;
+}
+
+namespace {
+bool are(const std::vector<double>& masses_g, std::span<const double> papers) {
+  return std::ranges::is_permutation(masses_g, papers);
+}
+
+// What the blocks of a protocol have of the paper's experiments.
+struct PapersTasks {
+  std::set<Condition> sorted;     // conditions of sortings of the paper's masses
+  bool introduced = false;        // with the paper's masses and technique
+  std::set<double> references_g;  // of comparisons in the paper's technique
+
+  explicit PapersTasks(const Protocol& protocol) : conditions_(conditions_in(protocol)) {
+    for (const Block& block : protocol.blocks)
+      if (const auto* trials = std::get_if<TaskBlock>(&block)) add(*trials);
+  }
+
+ private:
+  void add(const TaskBlock& block) {
+    if (const auto* sorting = block.as<heft::Sorting::Block>(); sorting)
+      if (are(sorting->masses_g, sorting_masses_g))
+        for (const TechniqueTrials& one : sorting->trials)
+          if (const auto found = conditions_.find(one.technique); found != conditions_.end())
+            sorted.insert(found->second);
+    if (const auto* first = block.as<Introduction::Block>(); first)
+      introduced = introduced || (are(first->masses_g, introduction_masses_g) &&
+                                  is_papers_technique(first->condition));
+    if (const auto* comparison = block.as<Comparison::Block>();
+        comparison && comparison->has_three_answers())
+      for (const ReferenceStaircase& one : block.staircases())
+        if (jnd_at(one.reference_g) &&
+            is_papers_technique(one.condition.empty() ? comparison->condition : one.condition))
+          references_g.insert(one.reference_g);
+  }
+
+  bool is_papers_technique(const std::string& name) const {
+    const auto found = conditions_.find(name);
+    return found != conditions_.end() && found->second == Condition::decoupled;
+  }
+
+  std::map<std::string, Condition> conditions_;
+};
+}  // namespace
+
+std::vector<UntestableHypothesis> untestable_in(const Protocol& protocol) {
+  const PapersTasks has(protocol);
+  const bool compares = has.references_g.size() > 1;
+  constexpr std::string_view comparisons =
+      "comparisons with \"no difference\" at two of 15, 200 and 800 g in C2";
+  const std::array<std::pair<bool, std::string_view>, hypotheses.size()> needed{
+      {{has.sorted.contains(Condition::coupled), "sortings of 15, 200 and 800 g in C1"},
+       {has.sorted.contains(Condition::decoupled), "sortings of 15, 200 and 800 g in C2"},
+       {has.introduced, "an introduction with 15 and 800 g in C2"},
+       {compares, comparisons},
+       {compares, comparisons}}};
+  std::vector<UntestableHypothesis> all;
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    const auto& [has_them, what] = needed.at(i);
+    const std::string_view name = hypotheses.at(i).name;
+    if (protocol.analysis.declares(name) && !has_them) all.push_back({name, what});
+  }
+  return all;
 }
 
 }  // namespace heft::published

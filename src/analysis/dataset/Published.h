@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "protocol/Protocol.h"
 
@@ -113,5 +114,13 @@ inline constexpr std::array hypotheses{
     HypothesisText{"E1-H3", "C2 is effective with no training"},
     HypothesisText{"E2-H1", "the JND increases with the reference mass"},
     HypothesisText{"E2-H2", "the JND is proportional to the reference mass"}};
+
+struct UntestableHypothesis {
+  std::string_view name;   ///< "E1-H1"
+  std::string_view needs;  ///< trials that the protocol lacks
+};
+/// The declared hypotheses that no session of this protocol can test, because it lacks their task
+/// with the paper's technique and masses.
+std::vector<UntestableHypothesis> untestable_in(const Protocol& protocol);
 
 }  // namespace heft::published

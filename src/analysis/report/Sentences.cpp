@@ -24,13 +24,20 @@ std::string limits_sentence(const Summary& summary) {
 }  // namespace
 
 std::string inconclusive_sentence(const Summary& summary) {
-  std::vector<std::string> open;
+  std::vector<std::string> open, untested;
   for (const Hypothesis& hypothesis : summary.hypotheses)
-    if (hypothesis.verdict == HypothesisVerdict::inconclusive && !hypothesis.condition.empty())
-      open.push_back(hypothesis.name);
-  if (open.empty()) return "";
-  return fmt::format("Inconclusive: hypothes{} {} of the paper.", open.size() == 1 ? "is" : "es",
-                     fmt::join(open, ", "));
+    if (hypothesis.verdict == HypothesisVerdict::inconclusive && hypothesis.applies())
+      (hypothesis.condition.empty() ? untested : open).push_back(hypothesis.name);
+  const auto named = [](const std::vector<std::string>& names) {
+    return fmt::format("hypothes{} {}", names.size() == 1 ? "is" : "es", fmt::join(names, ", "));
+  };
+  std::string text;
+  if (!open.empty()) text = fmt::format("Inconclusive: {} of the paper.", named(open));
+  if (!untested.empty())
+    text += fmt::format(
+        "{}Declared but not tested, without trials of the paper's masses and technique: {}.",
+        text.empty() ? "" : " ", named(untested));
+  return text;
 }
 
 std::vector<std::string> findings_of(const Summary& summary) {

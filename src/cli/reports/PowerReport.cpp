@@ -256,7 +256,7 @@ void print_power(const ModelPower& found, bool tables) {
   const std::string heading =
       fmt::format("protocol {}, model {}: {} simulated studies of each size (--seed {})",
                   found.protocol, found.model, power.n_studies, found.seed);
-  print("{}\n", fmt::join(heft::wrapped(heading, screen_width), "\n"));
+  heft::cli::print("{}\n", fmt::join(heft::wrapped(heading, screen_width), "\n"));
   print_table(found, tables);
   print("\n");
   if (!power.sizes.back().hypotheses.empty())
