@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <span>
 #include <vector>
 
@@ -339,11 +338,11 @@ double log_likelihood_of_same(const AnswersByLevel& answers, double unit, double
     sum += yes.value + no.value;
     if (!derivatives) continue;
     const Eigen::Vector2d slope(x * (above - below), -above - below);
-    const double curvature = -up * above - down * below, mixed = x * (up * above - down * below);
-    const Eigen::Matrix2d curvatures{{x * x * curvature, mixed}, {mixed, curvature}};
+    const double own = -up * above - down * below, mixed = x * (up * above - down * below);
+    const Eigen::Matrix2d second{{x * x * own, mixed}, {mixed, own}};
     gradient += (yes.slope - no.slope) * slope;
-    hessian += (yes.curvature + no.curvature) * slope * slope.transpose() +
-               (yes.slope - no.slope) * curvatures;
+    hessian += (yes.slope - no.slope) * second;
+    hessian += (yes.curvature + no.curvature) * slope * slope.transpose();
   }
   if (derivatives) *derivatives = {gradient, hessian};
   return sum;
