@@ -119,6 +119,7 @@ void put_jnds(Estimates& all, StudyEstimate estimate, const Jnds& jnds) {
   StudyEstimate number{estimate};
   number.sd = number.low = number.high = std::nullopt;
   number.method = {};
+  number.why.clear();
   number.published = nullptr;
   const auto put_number = [&](const Measure& measure, int n) {
     number.measure = &measure;
