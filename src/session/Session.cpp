@@ -98,12 +98,18 @@ void refuse_changed_log(const LogReader& reader, const LoggedSession& session) {
   else if (const Verification found = verify_rows(reader, session.row.session_id); found.first)
     why = fmt::format("{} is {}, but its events give {}", found.first->what, found.first->logged,
                       found.first->replayed);
-  if (!why.empty())
-    throw Error(fmt::format("session {} in {} cannot be continued: the log was changed; {}. "
-                            "Inspect it with: heft replay --db {} --session {}",
-                            session.row.session_id, session.db, why, shell_quoted(session.db),
-                            session.row.session_id),
-                ExitCode::diverged);
+  if (why.empty()) return;
+  if (const auto damage = check_integrity(session.db); !damage.empty())
+    throw Error(
+        fmt::format("session {} in {} cannot be continued: the file is damaged ({}). Keep a "
+                    "copy of it and continue with a backup.",
+                    session.row.session_id, session.db, damage.front()),
+        ExitCode::diverged);
+  throw Error(fmt::format("session {} in {} cannot be continued: the log was changed; {}. "
+                          "Inspect it with: heft replay --db {} --session {}",
+                          session.row.session_id, session.db, why, shell_quoted(session.db),
+                          session.row.session_id),
+              ExitCode::diverged);
 }
 
 // A logged session folded up to its last event, under the log's lock.

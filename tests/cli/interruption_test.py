@@ -11,7 +11,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from session_harness import PROTOCOLS, SessionTest, main, outcome_of, query
+from session_harness import PROTOCOLS, SessionTest, change, main, outcome_of, query
 
 
 class Killed(SessionTest):
@@ -121,6 +121,18 @@ class Killed(SessionTest):
                 self.run_heft("resume", "--db", db)
                 self.run_heft("replay", "--db", db)
                 self.assertEqual(outcome_of(db, frames=True), expected)
+
+    def test_a_damaged_file_is_not_called_changed(self):
+        db = self.folder / "s.db"
+        self.kill_under_way(db)
+        change(db, "pragma wal_checkpoint(truncate)")
+        [(page,)] = query(db, "select rootpage from sqlite_master where name = 'event_by_session'")
+        content = bytearray(db.read_bytes())
+        content[(page - 1) * 4096 + 4] -= 1  # the index lacks an entry
+        db.write_bytes(content)
+        refused = self.run_heft("resume", "--db", db, expect=5).stderr
+        self.assertIn("the file is damaged", refused)
+        self.assertIn("continue with a backup", refused)
 
     def test_the_gap_is_logged_and_time_continues(self):
         db = self.folder / "s.db"
