@@ -125,12 +125,11 @@ ConfigMistakes Judgment::Block::mistakes_in_responses() const {
     return mistake({"responses"},
                    responses.empty() ? "lacks \"responses\""
                                      : fmt::format("responses has {}", in_words(responses)),
-                   of_pair > 0
-                       ? "\"left\", \"right\" and perhaps \"none\", for the question's "
-                         "choices: { first = \"left\", second = \"right\" }"
-                       : "\"positive\" and \"negative\", or \"left\", \"right\" and perhaps "
-                         "\"none\", for the question's choices: { yes = \"positive\", no = "
-                         "\"negative\" }");
+                   fmt::format("{}\"left\", \"right\" and perhaps \"none\", for the question's "
+                               "choices: {}",
+                               of_pair > 0 ? "" : "\"positive\" and \"negative\", or ",
+                               of_pair > 0 ? "{ first = \"left\", second = \"right\" }"
+                                           : "{ yes = \"positive\", no = \"negative\" }"));
   const auto n_with_reference = std::ranges::count_if(
       staircases, [](const ReferenceStaircase& one) { return one.reference_g > 0; });
   if (are_of_pair && n_with_reference < std::ssize(staircases))

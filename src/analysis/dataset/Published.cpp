@@ -59,25 +59,26 @@ struct PapersTasks {
 
  private:
   void add(const TaskBlock& block) {
-    if (const auto* sorting = block.as<heft::Sorting::Block>(); sorting)
-      if (are(sorting->masses_g, sorting_masses_g))
-        for (const TechniqueTrials& one : sorting->trials)
-          if (const auto found = conditions_.find(one.technique); found != conditions_.end())
-            sorted.insert(found->second);
-    if (const auto* first = block.as<Introduction::Block>(); first)
-      introduced = introduced || (are(first->masses_g, introduction_masses_g) &&
-                                  is_papers_technique(first->condition));
-    if (const auto* comparison = block.as<Comparison::Block>();
-        comparison && comparison->has_three_answers())
+    const auto* sorting = block.as<heft::Sorting::Block>();
+    if (sorting && are(sorting->masses_g, sorting_masses_g))
+      for (const TechniqueTrials& one : sorting->trials)
+        if (const auto condition = condition_named(one.technique)) sorted.insert(*condition);
+    const auto* first = block.as<Introduction::Block>();
+    if (first && are(first->masses_g, introduction_masses_g) &&
+        condition_named(first->condition) == Condition::decoupled)
+      introduced = true;
+    const auto* comparison = block.as<Comparison::Block>();
+    if (comparison && comparison->has_three_answers())
       for (const ReferenceStaircase& one : block.staircases())
         if (jnd_at(one.reference_g) &&
-            is_papers_technique(one.condition.empty() ? comparison->condition : one.condition))
+            condition_named(one.condition.empty() ? comparison->condition : one.condition) ==
+                Condition::decoupled)
           references_g.insert(one.reference_g);
   }
 
-  bool is_papers_technique(const std::string& name) const {
-    const auto found = conditions_.find(name);
-    return found != conditions_.end() && found->second == Condition::decoupled;
+  std::optional<Condition> condition_named(const std::string& technique) const {
+    const auto found = conditions_.find(technique);
+    return found == conditions_.end() ? std::nullopt : std::optional(found->second);
   }
 
   std::map<std::string, Condition> conditions_;
