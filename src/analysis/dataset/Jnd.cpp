@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <set>
 #include <variant>
 
 #include "analysis/dataset/Dataset.h"
@@ -328,15 +329,19 @@ std::string why_no_mean(const Jnds& jnds) {
   const int n_above = jnds.n_censored(Censored::above), n_below = jnds.n_censored(Censored::below);
   const int n_missing = static_cast<int>(jnds.missing.size());
   const int n_exact = jnds.n() - n_above - n_below - n_missing;
-  if (2 * n_exact > jnds.n())
+  std::set<double> different;
+  for (const ParticipantJnd& one : jnds.participants)
+    if (one.censored == Censored::none) different.insert(one.jnd_g);
+  const bool most_are_exact = 2 * n_exact > jnds.n();
+  if (most_are_exact && n_exact > 2 && different.size() > 1)
     return "the limits of its interval are more than a factor of 100 000 apart";
   std::string others;
   for (const auto& [n, what] : {std::pair{n_above, "above a limit"},
                                 {n_below, "below a limit"},
                                 {n_missing, "indeterminate"}})
     if (n > 0) others += fmt::format(", {} in {}", what, n);
-  return fmt::format("exact in {} of {} participants{}; a mean needs more than half", n_exact,
-                     jnds.n(), others);
+  return fmt::format("exact in {} of {} participants{}; a mean needs {}", n_exact, jnds.n(), others,
+                     most_are_exact ? "at least three that are not all equal" : "more than half");
 }
 }  // namespace
 

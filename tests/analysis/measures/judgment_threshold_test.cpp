@@ -71,6 +71,22 @@ TEST(JudgmentThreshold, ThatIsNotIdentifiableHasAReason) {
               testing::HasSubstr("Threshold of \"heavy\" (mean_of_reversals): not identifiable"));
 }
 
+// Two exact thresholds of three determine no log-normal mean, however narrow its interval would be.
+TEST(JudgmentThreshold, OfTwoExactAndACensoredOneSaysWhatIsMissing) {
+  SessionData one = session(1, "one"), other = session(2, "other"), third = session(3, "third");
+  for (auto [data, g] : {std::pair(&one, 100.0), {&other, 110.0}, {&third, 120.0}})
+    add_threshold(*data, "heavy", std::nullopt, g);
+  third.estimates.back().n_reversals = 1;
+  third.estimates.back().n_floor = 3;
+  third.estimates.back().censored = Censored::below;
+  const StudyEstimate found = figure(summarized({one, other, third}), "judgment_threshold",
+                                     {{"block", "heavy"}, {"participant", ""}});
+  EXPECT_FALSE(found.value.has_value());
+  EXPECT_EQ(found.why,
+            "exact in 2 of 3 participants, below a limit in 1; a mean needs at least three that "
+            "are not all equal");
+}
+
 TEST(JudgmentThreshold, NotesMethodsOnlyWhereThoseOfOneJudgmentDiffer) {
   SessionData one = session(1, "one"), other = session(2, "other");
   for (SessionData* data : {&one, &other}) {
