@@ -338,6 +338,13 @@ void draw_power(const ModelPower& found, const std::string& file) {
   constexpr int width_px = 900, plot_px = 330, bottom_px = 110, key_line_px = 18;
   const Power& power = found.power;
   const ChartData hypotheses = data_of_hypotheses(power), figures = data_of_figures(power);
+  const bool has_hypotheses = !hypotheses.names.empty(), has_figures = !figures.names.empty();
+  const bool has_both = has_hypotheses && has_figures;
+  const std::string shown =
+      has_both ? "Left: with exact 95 % intervals; dotted: 80 %. Right: median figure and median "
+                 "interval."
+      : has_hypotheses ? "Exact 95 % intervals; dotted: 80 %."
+                       : "Median figure and median interval.";
   const int largest = power.sizes.back().participants;
   const int n_keys = static_cast<int>(std::max(hypotheses.names.size(), figures.names.size()));
   const int top_px = 50 + key_line_px * n_keys;
@@ -345,28 +352,29 @@ void draw_power(const ModelPower& found, const std::string& file) {
                          const std::string& terms) {
     return gnuplot_place(left, right, top_px, top_px + plot_px) +
            fmt::format(
-               "set key at screen {}, screen 1-34*pixel center top horizontal maxcols 2 "
+               "set key at screen {}, screen 1-34*pixel center top horizontal maxcols {} "
                "samplen 1.5 font ',11'\nset xlabel 'participants in the study'\n"
                "set xrange [0:{}]\n{}plot {}\n",
-               (left + right) / 2, 1.05 * largest + 1, axes, terms) +
+               (left + right) / 2, has_both ? 2 : 1, 1.05 * largest + 1, axes, terms) +
            "unset label\n";
   };
   draw_svg(file, [&](const std::string& svg) {
-    return gnuplot_header(
-               {svg, width_px, top_px + plot_px + bottom_px,
-                fmt::format("What a study of {} can find", found.protocol),
-                fmt::format(
-                    "{} simulated studies with people of the model \"{}\". Left: with exact 95 % "
-                    "intervals; dotted: 80 %. Right: median figure and median interval. "
-                    "Made by: heft power (seed {})",
-                    power.n_studies, found.model, found.seed)}) +
+    return gnuplot_header({svg, width_px, top_px + plot_px + bottom_px,
+                           fmt::format("What a study of {} can find", found.protocol),
+                           fmt::format("{} simulated studies with people of the model \"{}\". {} "
+                                       "Made by: heft power (seed {})",
+                                       power.n_studies, found.model, shown, found.seed)}) +
            hypotheses.text + figures.text + "set multiplot\n" +
-           panel(0.1, 0.47, "set ylabel '% of studies that support it'\nset yrange [0:100]\n",
-                 "80 with lines dashtype 3 linecolor '#999999' notitle" +
-                     (hypotheses.names.empty() ? ""
-                                               : ", " + lines_of(hypotheses.names, "h", largest))) +
-           panel(0.59, 0.97, "set ylabel 'g'\nset logscale y\nset yrange [*:*]\n",
-                 figures.names.empty() ? "NaN notitle" : lines_of(figures.names, "f", largest)) +
+           (has_hypotheses
+                ? panel(0.1, has_both ? 0.47 : 0.97,
+                        "set ylabel '% of studies that support it'\nset yrange [0:100]\n",
+                        "80 with lines dashtype 3 linecolor '#999999' notitle, " +
+                            lines_of(hypotheses.names, "h", largest))
+                : "") +
+           (has_figures ? panel(has_both ? 0.59 : 0.1, 0.97,
+                                "set ylabel 'g'\nset logscale y\nset yrange [*:*]\n",
+                                lines_of(figures.names, "f", largest))
+                        : "") +
            "unset multiplot\n";
   });
 }

@@ -39,6 +39,15 @@ class Power(SessionTest):
             self.assertIn(f"\n{figure}", said)
             self.assertLessEqual(max(map(len, said.splitlines())), 80)
 
+    def test_a_chart_of_figures_alone_names_them_and_has_no_empty_panel(self):
+        chart = self.folder / "power.svg"
+        said = self.run_heft("power", PROTOCOLS / "examples/judgment_staircase.toml", "--studies", 2,
+                             "--participants", "3", "--seed", 7, "--chart", chart)
+        self.assertNotIn("warning", said.stderr)
+        drawn = chart.read_text(encoding="utf-8")
+        self.assertIn("threshold of judgments, judgment C2, heavy", drawn)
+        self.assertNotIn("studies that support it", drawn)
+
     def test_models_stand_in_json(self):
         words = [*SHORT, "--model", "simulated", "--model", "coin", "--json"]
         found = json.loads(self.run_heft(*words).stdout)
