@@ -120,13 +120,14 @@ class Participant:
             time.sleep(0.3)
 
     def push(self, n):
-        """The cube number n, with the dragged box, and back."""
+        """The cube number n, twice, with the dragged box, and back. On a busy machine pictures come so
+        late that the box jumps, and a jump pushes nothing."""
         effectors, cubes = self.eyes.objects()
         x, y = middle(effectors[0])
         to_x, to_y = middle(cubes[n])
-        for move in (["mousemove", x, y, "mousedown", 1], ["mousemove", to_x, y],
-                     ["mousemove", to_x, to_y], ["mousemove", to_x, y], ["mousemove", x, y],
-                     ["mouseup", 1]):
+        stroke = [["mousemove", to_x, to_y], ["mousemove", to_x, y]]
+        for move in (["mousemove", x, y, "mousedown", 1], ["mousemove", to_x, y], *stroke, *stroke,
+                     ["mousemove", x, y], ["mouseup", 1]):
             self.screen.do(*move)
             time.sleep(0.5)
 
