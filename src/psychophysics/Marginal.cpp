@@ -73,6 +73,11 @@ void LogWeights::normalize() {
   log_sum_ = log_scale_ + std::log(sum);
 }
 
+double LogWeights::entropy() const {
+  return log_sum_ - log_scale_ -
+         std::inner_product(weights_.begin(), weights_.end(), logs_.begin(), 0.0);
+}
+
 void LevelEvidence::add(const std::array<bool, 3>& outcomes) {
   const double n = counts_[0] + counts_[1] + counts_[2];
   double probability = 0, n_possible = 0;

@@ -39,6 +39,7 @@ class LogWeights {
 
   /// Sum 1; 0 for a point whose weight is below the last digit of the largest.
   const std::vector<double>& weights() const { return weights_; }
+  double entropy() const;                                            ///< in nats
   double log_evidence() const { return log_sum_ - log_prior_sum_; }  ///< of all responses
 
  private:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "psychophysics/ObserverModels.h"
+
 namespace heft {
 
 namespace {
@@ -35,39 +37,45 @@ std::shared_ptr<const LikelihoodTable> LikelihoodTable::shared(GridSpace space) 
   return made;
 }
 
-// What a point predicts, by level.
-struct LikelihoodTable::PointShares {
-  OutcomeShares inattentive{};
-  std::vector<OutcomeShares> attentive;
+namespace {
+OutcomeShares mixed(const OutcomeShares& inattentive, OutcomeShares shares) {
+  for (std::size_t k = 0; k < shares.size(); ++k)
+    shares[k] = inattentive[k] + attention(inattentive) * shares[k];
+  return shares;
+}
 
-  OutcomeShares mixed(std::size_t x) const {
-    OutcomeShares shares = inattentive;
-    for (std::size_t k = 0; k < shares.size(); ++k)
-      shares[k] += attention(inattentive) * attentive[x][k];
-    return shares;
-  }
-};
+double entropy_of(const OutcomeShares& shares) {
+  return -times_log(shares[0]) - times_log(shares[1]) - times_log(shares[2]);
+}
+
+// Shares of the outcomes of attentive trials: all that a normal variable cut at two places gives.
+std::vector<OutcomeShares> any_attentive() {
+  std::vector<OutcomeShares> any;
+  for (double low = -6; low <= 6; low += 0.25)
+    for (double high = low; high <= 6; high += 0.25)
+      any.push_back({normal_cdf(low), normal_cdf(high) - normal_cdf(low), normal_cdf(-high)});
+  return any;
+}
+}  // namespace
 
 LikelihoodTable::LikelihoodTable(GridSpace space)
     : space_(std::move(space)), n_points_(space_.n_points()) {
   order_points();
-  const std::size_t n_outcomes = space_.model.n_outcomes(), n_levels = space_.levels.size();
-  attentive_.reserve(n_points_ / n_alike_ * (n_outcomes - 1) * n_levels);
   inattentive_.reserve(n_points_);
   for (std::size_t i = 0; i < n_points_; ++i)
     inattentive_.push_back(space_.model.inattentive(point(i)));
-  if (n_nuisance_ == 1) entropy_.reserve(n_points_ * n_levels);
-  visit_points(space_.levels, [&](std::size_t i, const PointShares& at) {
-    if (i % n_alike_ == 0)
-      for (std::size_t k = 1; k < n_outcomes; ++k)
-        for (const OutcomeShares& level : at.attentive)
-          attentive_.push_back(static_cast<float>(level[k]));
-    if (n_nuisance_ > 1) return;
-    for (std::size_t x = 0; x < n_levels; ++x) {
-      double entropy = 0;
-      for (const double p : at.mixed(x)) entropy -= times_log(p);
-      entropy_.push_back(static_cast<float>(entropy));
-    }
+  std::vector<std::size_t> mixes;
+  if (n_nuisance_ == 1) mixes = choose_mixes();
+  const std::size_t n_outcomes = space_.model.n_outcomes(), n_levels = space_.levels.size();
+  attentive_.reserve(n_points_ / n_alike_ * (n_outcomes - 1) * n_levels);
+  entropies_.reserve(n_points_ / n_alike_ * mixes.size() * n_levels);
+  visit_attentive(space_.levels, [&](std::size_t i, const std::vector<OutcomeShares>& attentive) {
+    for (std::size_t k = 1; k < n_outcomes; ++k)
+      for (const OutcomeShares& shares : attentive)
+        attentive_.push_back(static_cast<float>(shares[k]));
+    for (const std::size_t mix : mixes)
+      for (const OutcomeShares& shares : attentive)
+        entropies_.push_back(static_cast<float>(entropy_of(mixed(inattentive_[i + mix], shares))));
   });
 }
 
@@ -94,17 +102,41 @@ ParameterValues LikelihoodTable::point(std::size_t i) const {
   return values;
 }
 
+// The entropy depends so smoothly on the shares of guesses and lapses that the entropies of a few
+// mixes give those of all others, in linear combinations, within 1e-8 nats (an interpolative
+// decomposition; Cheng et al. 2005). Each mix that is chosen is the one farthest from all
+// combinations of those before, by Gram-Schmidt.
+std::vector<std::size_t> LikelihoodTable::choose_mixes() {
+  constexpr double near_enough = 1e-8;
+  const std::vector<OutcomeShares> attentive = any_attentive();
+  const auto n_alike = static_cast<Eigen::Index>(n_alike_);
+  Eigen::MatrixXd rest(static_cast<Eigen::Index>(attentive.size()), n_alike);
+  double* entropy = rest.data();
+  for (std::size_t mix = 0; mix < n_alike_; ++mix)
+    for (const OutcomeShares& shares : attentive)
+      *entropy++ = entropy_of(mixed(inattentive_[mix], shares));
+
+  std::vector<Eigen::Index> chosen;
+  Eigen::MatrixXd projections(0, n_alike);
+  while (chosen.empty() || rest.cwiseAbs().maxCoeff() > near_enough) {
+    rest.colwise().squaredNorm().maxCoeff(&chosen.emplace_back());
+    const Eigen::VectorXd direction = rest.col(chosen.back()).normalized();
+    projections.conservativeResize(projections.rows() + 1, Eigen::NoChange);
+    projections.bottomRows(1) = direction.transpose() * rest;
+    rest -= direction * projections.bottomRows(1);
+  }
+  combinations_ = projections(Eigen::all, chosen).triangularView<Eigen::Upper>().solve(projections);
+  return {chosen.begin(), chosen.end()};
+}
+
 template <typename Visit>
-void LikelihoodTable::visit_points(const std::vector<double>& levels, const Visit& visit) const {
-  PointShares at{.attentive = std::vector<OutcomeShares>(levels.size())};
+void LikelihoodTable::visit_attentive(const std::vector<double>& levels, const Visit& visit) const {
+  std::vector<OutcomeShares> attentive(levels.size());
   for (std::size_t alike = 0; alike < n_points_; alike += n_alike_) {
     const ParameterValues values = point(alike);
     for (std::size_t x = 0; x < levels.size(); ++x)
-      at.attentive[x] = space_.model.attentive(values, levels[x]);
-    for (std::size_t i = alike; i < alike + n_alike_; ++i) {
-      at.inattentive = inattentive_[i];
-      visit(i, at);
-    }
+      attentive[x] = space_.model.attentive(values, levels[x]);
+    visit(alike, attentive);
   }
 }
 
@@ -118,12 +150,14 @@ std::shared_ptr<const std::vector<double>> LikelihoodTable::log_likelihood(
       return found->second;
   }
   auto log_likelihood = std::make_shared<std::vector<double>>(n_points_);
-  visit_points({level}, [&](std::size_t i, const PointShares& at) {
-    const OutcomeShares shares = at.mixed(0);
-    double p = 0;
-    for (std::size_t k = 0; k < outcomes.size(); ++k)
-      if (outcomes[k]) p += shares[k];
-    (*log_likelihood)[i] = finite_log(p);
+  visit_attentive({level}, [&](std::size_t alike, const std::vector<OutcomeShares>& attentive) {
+    for (std::size_t i = alike; i < alike + n_alike_; ++i) {
+      const OutcomeShares shares = mixed(inattentive_[i], attentive[0]);
+      double p = 0;
+      for (std::size_t k = 0; k < outcomes.size(); ++k)
+        if (outcomes[k]) p += shares[k];
+      (*log_likelihood)[i] = finite_log(p);
+    }
   });
   const std::lock_guard lock(kept_mutex_);
   if ((kept_.size() + 1) * n_points_ <= most_kept)
@@ -180,15 +214,16 @@ PosteriorGrid::Outcomes PosteriorGrid::outcomes(std::size_t first, std::size_t n
 // The entropy after a trial is the entropy before, minus the information in its outcome: the
 // entropy of the outcome, minus its expected entropy where the parameters are known.
 Eigen::ArrayXd PosteriorGrid::joint_entropies() const {
-  Eigen::ArrayXd expected = -outcomes(0, weights().size()).entropy();
-  double entropy = 0;
-  for (std::size_t i = 0; i < weights().size(); ++i) {
-    const double weight = weights()[i];
-    if (weight == 0) continue;
-    entropy -= times_log(weight);
-    expected += weight * table_->entropy(i).cast<double>();
+  Eigen::ArrayXd expected = posterior_.entropy() - outcomes(0, weights().size()).entropy();
+  const auto n_alike = static_cast<Eigen::Index>(table_->n_alike());
+  for (std::size_t i = 0; i < weights().size(); i += table_->n_alike()) {
+    const Eigen::Map<const Eigen::VectorXd> alike(&weights()[i], n_alike);
+    if ((alike.array() == 0).all()) continue;
+    const Eigen::VectorXd of_mixes = table_->combinations() * alike;
+    for (Eigen::Index mix = 0; mix < of_mixes.size(); ++mix)
+      expected += of_mixes[mix] * table_->entropy(i, static_cast<std::size_t>(mix)).cast<double>();
   }
-  return expected + entropy;
+  return expected;
 }
 
 Eigen::ArrayXd PosteriorGrid::marginal_entropies() const {

@@ -58,8 +58,14 @@ class LikelihoodTable {
     return row(attentive_, i / n_alike_ * (space_.model.n_outcomes() - 1) + outcome - 1);
   }
   const OutcomeShares& inattentive(std::size_t i) const { return inattentive_[i]; }
-  /// Entropy of the outcome at a point, in nats. Only without nuisance parameters.
-  Row entropy(std::size_t i) const { return row(entropy_, i); }
+  /// Entropies of the outcome in nats, by level, of points with one of a few mixes of guesses and
+  /// lapses. Without nuisance parameters only. @param i of the first of points that are alike
+  Row entropy(std::size_t i, std::size_t mix) const {
+    return row(entropies_, i / n_alike_ * static_cast<std::size_t>(combinations_.rows()) + mix);
+  }
+  /// Points that are alike have these combinations of the mixes' entropies: a row for each mix, a
+  /// column for each point.
+  const Eigen::MatrixXd& combinations() const { return combinations_; }
 
   /// Log probability of a response at any level, for every point; finite. Cached up to a memory
   /// limit, because simulated people repeat the same trials. Thread-safe.
@@ -67,20 +73,21 @@ class LikelihoodTable {
                                                             const Response& response) const;
 
  private:
-  struct PointShares;
   template <typename Visit>
-  void visit_points(const std::vector<double>& levels, const Visit& visit) const;
+  void visit_attentive(const std::vector<double>& levels, const Visit& visit) const;
 
   Row row(const std::vector<float>& table, std::size_t i) const {
     return {&table[i * space_.levels.size()], static_cast<Eigen::Index>(space_.levels.size())};
   }
   void order_points();
+  std::vector<std::size_t> choose_mixes();
 
   GridSpace space_;
   std::size_t n_points_, n_nuisance_ = 1, n_alike_ = 1;
   std::array<std::size_t, 4> stride_{};
-  std::vector<float> attentive_, entropy_;
+  std::vector<float> attentive_, entropies_;
   std::vector<OutcomeShares> inattentive_;
+  Eigen::MatrixXd combinations_;
   mutable std::mutex kept_mutex_;
   mutable std::map<std::pair<double, std::array<bool, 3>>,
                    std::shared_ptr<const std::vector<double>>>

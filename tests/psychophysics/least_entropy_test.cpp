@@ -98,8 +98,7 @@ RC_GTEST_PROP(LeastEntropyProperty, ExpectsTheEntropyOfTheDefinition, ()) {
   space.parameters = space.model.is_indecision()
                          ? decltype(space.parameters){{{0.01, 0.02}, {0, 0.5, 1}, {0, 0.2}, {}}}
                          : decltype(space.parameters){{{10, 30}, {5, 10, 20}, {0, 0.1}, {}}};
-  space.parameters[3] = {0.02};
-  if (*rc::gen::arbitrary<bool>()) space.parameters[3] = {0, 0.05, 0.1};
+  space.parameters[3] = test::spaced(0.02, 0.2, *rc::gen::element(2, 3, 40)).values;
   for (std::size_t i = 1; i < 4; ++i) space.is_nuisance[i] = *rc::gen::arbitrary<bool>();
   const auto table = std::make_shared<const LikelihoodTable>(space);
   PosteriorGrid grid(table);
@@ -124,6 +123,26 @@ RC_GTEST_PROP(LeastEntropyProperty, ExpectsTheEntropyOfTheDefinition, ()) {
     for (double& weight : weights) weight /= sum;
     grid.update(level, response);
   }
+}
+
+// The entropies of 21 x 50 mixes of guesses and lapses come from those of a few.
+TEST(LeastEntropy, AFewMixesOfGuessesAndLapsesGiveTheEntropiesOfAll) {
+  GridSpace space{.model = {}, .parameters = {}, .levels = {-8, -1, 0, 0.5, 2, 40}};
+  space.parameters = {{{0}, {1}, test::spaced(0, 0.5, 21).values, test::spaced(0, 0.2, 50).values}};
+  const LikelihoodTable table(space);
+  EXPECT_LT(table.combinations().rows(), 40);
+  Eigen::MatrixXd of_mixes(6, table.combinations().rows());
+  for (Eigen::Index mix = 0; mix < of_mixes.cols(); ++mix)
+    of_mixes.col(mix) = table.entropy(0, static_cast<std::size_t>(mix)).cast<double>();
+  const Eigen::MatrixXd all = of_mixes * table.combinations();
+  for (std::size_t i = 0; i < table.n_points(); ++i)
+    for (std::size_t x = 0; x < space.levels.size(); ++x) {
+      const double lapse = table.point(i)[3], guess = table.point(i)[2];
+      const double p = guess + (1 - guess - lapse) * normal_cdf(space.levels[x]);
+      const double entropy = p > 0 && p < 1 ? -p * std::log(p) - (1 - p) * std::log1p(-p) : 0;
+      ASSERT_NEAR(all(static_cast<Eigen::Index>(x), static_cast<Eigen::Index>(i)), entropy, 1e-7)
+          << "guess " << guess << ", lapse " << lapse << ", level " << space.levels[x];
+    }
 }
 
 TEST(LeastEntropy, AnImpossibleResponseLeavesTheOthersInOrder) {
