@@ -2,6 +2,7 @@
 // that they are excluded from the figures of three-way comparisons.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -57,12 +58,17 @@ TEST(ForcedChoice, HeavierComparisonsGiveTheThresholdAlone) {
   EXPECT_FALSE(find_estimate(summary.estimates, "forced_pse"));
 }
 
-TEST(ForcedChoice, IsMeanOverParticipants) {
+TEST(ForcedChoice, IsGeometricMeanOverParticipants) {
   const Summary summary = summarized({chooser(1, "a", both_signs), chooser(2, "b", heavier)});
   const StudyEstimate threshold = figure(summary, "forced_threshold_75", {{"participant", ""}});
-  EXPECT_NEAR(*threshold.value, (48.2439 + 90.4185) / 2, 2e-3);
+  const double ratio = std::sqrt(90.4185 / 48.2439);
+  EXPECT_NEAR(*threshold.value, 48.2439 * ratio, 2e-3);
+  const double t_of_1_degree = 12.7062;
+  EXPECT_NEAR(std::log(*threshold.high / *threshold.value), t_of_1_degree * std::log(ratio), 1e-3);
+  EXPECT_NEAR(std::log(*threshold.value / *threshold.low), t_of_1_degree * std::log(ratio), 1e-3)
+      << "above 0";
   EXPECT_EQ(threshold.n, 2);
-  EXPECT_EQ(threshold.method, "Student's t");
+  EXPECT_EQ(threshold.method, "Student's t of logarithms");
 }
 
 // One whose thresholds are proportional to the reference, and one whose thresholds are equal.
@@ -81,7 +87,7 @@ TEST(WeberFraction, AndTheExponentOfThresholds) {
   EXPECT_NEAR(*of("forced_weber_fraction", "equal", "600").value, 48.2439 / 600, 1e-5);
   EXPECT_NEAR(*of("forced_weber_fraction", "equal", "600").high,
               *of("forced_threshold_75", "equal", "600").high / 600, 1e-9);
-  EXPECT_NEAR(*of("forced_weber_fraction", "", "600").value, 48.2439 / 600 * 2, 1e-5);
+  EXPECT_NEAR(*of("forced_weber_fraction", "", "600").value, 48.2439 / 600 * std::sqrt(3), 1e-5);
   EXPECT_NEAR(*of("forced_threshold_exponent", "weber", "").value, 1, 1e-4);
   EXPECT_NEAR(*of("forced_threshold_exponent", "equal", "").value, 0, 1e-4);
   const StudyEstimate exponent = of("forced_threshold_exponent", "", "");

@@ -130,15 +130,15 @@ StudyEstimate mean_over_people(const std::vector<const StudyEstimate*>& people, 
   for (auto* figure : {&estimate.value, &estimate.low, &estimate.high})
     if (of_logs && *figure) *figure = std::exp(**figure);
   estimate.n = static_cast<int>(values.size());
-  estimate.method = "Student's t";
+  estimate.method = of_logs ? "Student's t of logarithms" : "Student's t";
   if (values.size() < people.size())
     estimate.why = fmt::format("{} of {} participants have none: {}", people.size() - values.size(),
                                people.size(), reasons_of(people));
   return estimate;
 }
 
-StudyEstimate over_people(const std::vector<const StudyEstimate*>& people) {
-  if (people.size() > 1) return mean_over_people(people, false);
+StudyEstimate over_people(const std::vector<const StudyEstimate*>& people, bool of_logs) {
+  if (people.size() > 1) return mean_over_people(people, of_logs);
   StudyEstimate estimate = *people.front();
   estimate.participant.clear();
   estimate.n = estimate.value ? 1 : 0;

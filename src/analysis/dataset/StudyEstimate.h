@@ -107,8 +107,8 @@ StudyEstimate own_share(const Measure& measure, const std::string& participant, 
 /// @param of_logs geometric: of logarithms; without SD
 StudyEstimate mean_over_people(const std::vector<const StudyEstimate*>& people, bool of_logs);
 
-/// The mean over people; for a single participant, their estimate with its interval.
-StudyEstimate over_people(const std::vector<const StudyEstimate*>& people);
+/// mean_over_people(); for a single participant, their estimate with its interval.
+StudyEstimate over_people(const std::vector<const StudyEstimate*>& people, bool of_logs);
 
 /// Those that the paper has a figure for, each figure once for each condition.
 std::vector<const StudyEstimate*> published_among(const Estimates& estimates);

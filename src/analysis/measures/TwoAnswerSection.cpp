@@ -78,8 +78,9 @@ void TwoAnswerSection::put(Summary& summary) {
   for (const auto& people : together(own)) {
     const Measure* measure = people.front()->measure;
     if (measure == &task_.deviance) continue;  // deviances have no mean
+    const bool is_positive = measure == &task_.threshold || measure == &task_.weber_fraction;
     summary.estimates.push_back(measure == &task_.fit_p ? rejected_of(people)
-                                                        : over_people(people));
+                                                        : over_people(people, is_positive));
   }
   for (const auto& [compared, people] : people_) put_shares(summary.estimates, compared, people);
 }

@@ -16,8 +16,9 @@ constexpr std::string_view rejected_meaning =
     "number of participants whose fit has p < .05, of those whose fit can be judged; about 5 % are "
     "expected if all curves are right";
 const std::string thresholds_are =
-    ", with 2 % lapses; mean over participants with Student's t interval, of one alone the fit's. "
-    "Fits judged: those of constant stimuli; rejected: p < .05 of the deviance";
+    "; threshold and Weber fraction: geometric mean over participants with Student's t interval of "
+    "the logarithms, of one alone the fit's interval. Fits judged: those of constant stimuli; "
+    "rejected: p < .05 of the deviance";
 }  // namespace
 
 namespace forced_choice {
@@ -25,12 +26,13 @@ namespace {
 constexpr Measure threshold{
     "forced_threshold_75", "g", "75 % threshold",
     "difference in mass that makes 75 % of forced choices correct, lapses apart: cumulative normal "
-    "fitted to each participant by maximum likelihood with 2 % lapses; mean over participants, "
-    "Student's t interval; of one alone the fit's interval"};
+    "fitted to each participant by maximum likelihood, with 2 % of the answers wrong however large "
+    "the difference; geometric mean over participants, Student's t interval of the logarithms; of "
+    "one alone the fit's interval"};
 constexpr Measure weber_fraction{
     "forced_weber_fraction", "", "Weber fraction",
-    "75 % threshold of forced choices by the mass of the reference: mean over participants, "
-    "Student's t interval; of one alone the fit's interval"};
+    "75 % threshold of forced choices by the mass of the reference: geometric mean over "
+    "participants, Student's t interval of the logarithms; of one alone the fit's interval"};
 constexpr Measure exponent{
     "forced_threshold_exponent", "", "exponent",
     "slope of the logarithm of a participant's 75 % threshold of forced choices on the logarithm "
@@ -75,7 +77,11 @@ const TwoAnswerTask task{
     .name = "forced_choice",
     .finding = "Forced choice",
     .thresholds_title = "Forced choices: 75 % threshold and point of subjective equality",
-    .thresholds_note = "cumulative normal fitted to each participant" + thresholds_are,
+    .thresholds_note =
+        "cumulative normal fitted to each participant, with 2 % of the answers wrong however large "
+        "the "
+        "difference" +
+        thresholds_are,
     .people_title = "Each participant's 75 % threshold in forced choices",
     .n_column = "n",
     .second_column = column(pse, Field::value, "pse_g", "PSE g"),
@@ -97,12 +103,12 @@ constexpr Measure threshold{
     "same_different_threshold_75", "g", "75 % threshold",
     "difference in mass that would make 75 % of forced choices correct: 0.6745 by the sensitivity "
     "of the differencing model, fitted to each participant's same-different answers by maximum "
-    "likelihood with 2 % lapses; the criterion has no influence on it; mean over participants, "
-    "Student's t interval; of one alone the fit's interval"};
+    "likelihood with 2 % lapses; the criterion has no influence on it; geometric mean over "
+    "participants, Student's t interval of the logarithms; of one alone the fit's interval"};
 constexpr Measure weber_fraction{
     "same_different_weber_fraction", "", "Weber fraction",
-    "75 % threshold of same-different comparisons by the mass of the reference: mean over "
-    "participants, Student's t interval; of one alone the fit's interval"};
+    "75 % threshold of same-different comparisons by the mass of the reference: geometric mean "
+    "over participants, Student's t interval of the logarithms; of one alone the fit's interval"};
 constexpr Measure exponent{
     "same_different_threshold_exponent", "", "exponent",
     "slope of the logarithm of a participant's 75 % threshold of same-different comparisons on the "
@@ -145,7 +151,8 @@ const TwoAnswerTask task{
     .name = "same_different",
     .finding = "Same-different",
     .thresholds_title = "Same-different comparisons: 75 % thresholds apart from the criterion",
-    .thresholds_note = "differencing model fitted to each participant" + thresholds_are,
+    .thresholds_note =
+        "differencing model fitted to each participant, with 2 % lapses" + thresholds_are,
     .people_title = "Each participant's 75 % threshold in same-different comparisons",
     .n_column = "n_participants",
     .second_column = column(criterion, Field::value, "criterion", "criterion SD", 2),

@@ -258,8 +258,8 @@ std::string other_estimators(const Summary& summary, Citations& citations) {
   if (find_estimate(all, "forced_threshold_75"))
     text +=
         " Forced choices of each participant were fitted with a cumulative normal (maximum "
-        "likelihood, 2 % lapses); thresholds are means over participants with Student's t "
-        "intervals.";
+        "likelihood, with 2 % of the answers wrong however large the difference); thresholds are "
+        "geometric means over participants with Student's t intervals of the logarithms.";
   if (find_estimate(all, "estimation_exponent"))
     text += fmt::format(
         " Magnitude estimates are geometric means over participants, and the exponent is the mean "
