@@ -316,6 +316,7 @@ void Jnds::add(const std::string& participant, const JndFigure& figure) {
 }
 
 void Jnds::put_means(FigureModel model) {
+  model_ = model;
   std::vector<CensoredValue> values;
   for (const ParticipantJnd& one : participants) values.push_back({one.jnd_g, one.censored});
   static_cast<FigureSummary&>(*this) =
@@ -328,16 +329,18 @@ namespace {
 std::string why_no_mean(const Jnds& jnds) {
   const int n_above = jnds.n_censored(Censored::above), n_below = jnds.n_censored(Censored::below);
   const int n_missing = static_cast<int>(jnds.missing.size());
-  const int n_exact = jnds.n() - n_above - n_below - n_missing;
+  const int n_zero = jnds.n_zero(), n_exact = jnds.n() - n_above - n_below - n_missing - n_zero;
   std::set<double> different;
   for (const ParticipantJnd& one : jnds.participants)
-    if (one.censored == Censored::none) different.insert(one.jnd_g);
+    if (one.censored == Censored::none && (one.jnd_g > 0 || n_zero == 0))
+      different.insert(one.jnd_g);
   const bool most_are_exact = 2 * n_exact > jnds.n();
   if (most_are_exact && n_exact > 2 && different.size() > 1)
     return "the limits of its interval are more than a factor of 100 000 apart";
   std::string others;
   for (const auto& [n, what] : {std::pair{n_above, "above a limit"},
                                 {n_below, "below a limit"},
+                                {n_zero, "0 g"},
                                 {n_missing, "indeterminate"}})
     if (n > 0) others += fmt::format(", {} in {}", what, n);
   return fmt::format("exact in {} of {} participants{}; a mean needs {}", n_exact, jnds.n(), others,
@@ -367,6 +370,13 @@ void put_participants(Estimates& all, StudyEstimate of, const Jnds& jnds) {
     estimate.n = 1;
   }
   for (const std::string& participant : jnds.missing) put(participant).why = "indeterminate";
+}
+
+int Jnds::n_zero() const {
+  if (model_ != FigureModel::log_normal) return 0;
+  return static_cast<int>(std::ranges::count_if(participants, [](const ParticipantJnd& one) {
+    return one.censored == Censored::none && one.jnd_g <= 0;
+  }));
 }
 
 int Jnds::n_censored(Censored direction) const {

@@ -89,9 +89,12 @@ struct Jnds : FigureSummary {
   void put_means(FigureModel model);  ///< when all are added
   int n() const { return static_cast<int>(participants.size() + missing.size()); }
   int n_censored(Censored direction) const;
+  /// Exact JNDs of 0 g, which have no logarithm: in a log-normal mean they are below the others.
+  int n_zero() const;
 
  private:
   std::vector<double> as_logged_g_;
+  FigureModel model_ = FigureModel::normal;
 };
 
 /// Copies the mean and its interval to an estimate.

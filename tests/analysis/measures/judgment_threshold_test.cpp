@@ -87,6 +87,25 @@ TEST(JudgmentThreshold, OfTwoExactAndACensoredOneSaysWhatIsMissing) {
             "are not all equal");
 }
 
+// A threshold of 0 g has no logarithm.
+TEST(JudgmentThreshold, OfZeroGramsIsNoExactOne) {
+  std::vector<SessionData> people;
+  for (const double g : {0.0, 0.0, 100.0, 120.0, 50.0}) {
+    const auto number = static_cast<int>(people.size()) + 1;
+    people.push_back(session(number, "p" + std::to_string(number)));
+    add_threshold(people.back(), "heavy", std::nullopt, g);
+  }
+  people.back().estimates.back().n_reversals = 1;
+  people.back().estimates.back().n_floor = 3;
+  people.back().estimates.back().censored = Censored::below;
+  const StudyEstimate found =
+      figure(summarized(people), "judgment_threshold", {{"block", "heavy"}, {"participant", ""}});
+  EXPECT_FALSE(found.value.has_value());
+  EXPECT_EQ(found.why,
+            "exact in 2 of 5 participants, below a limit in 1, 0 g in 2; a mean needs more than "
+            "half");
+}
+
 TEST(JudgmentThreshold, NotesMethodsOnlyWhereThoseOfOneJudgmentDiffer) {
   SessionData one = session(1, "one"), other = session(2, "other");
   for (SessionData* data : {&one, &other}) {
