@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "tasks/Sorting.h"
+
 namespace heft {
 
 double chance_percent(int n_cubes) {
@@ -44,6 +46,19 @@ std::optional<Swap> swap_of(std::span<const double> masses_g,
   if (light_right) return Swap::intermediate_heavy;
   if (intermediate_right) return Swap::light_heavy;
   return Swap::all_three;
+}
+
+void count_labels(LabelMatrices& matrices, std::span<const double> masses_g,
+                  std::span<const std::optional<Label>> given) {
+  const auto names = Sorting::labels_for(static_cast<int>(masses_g.size()));
+  auto& matrix = matrices[static_cast<int>(masses_g.size())];
+  matrix.resize(masses_g.size(), std::vector<int>(masses_g.size()));
+  for (std::size_t slot = 0; slot < masses_g.size(); ++slot) {
+    const auto rank = static_cast<std::size_t>(
+        std::ranges::count_if(masses_g, [&](double mass_g) { return mass_g < masses_g[slot]; }));
+    const auto label = std::find(names.begin(), names.end(), given[slot]);
+    if (label != names.end()) matrix[rank][static_cast<std::size_t>(label - names.begin())] += 1;
+  }
 }
 
 }  // namespace heft

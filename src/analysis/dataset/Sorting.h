@@ -1,7 +1,9 @@
-// Scoring of a sorting trial: the final labels of the cubes and the pair that was exchanged.
+// Scoring of a sorting trial: the final labels of the cubes, the pair that was exchanged, and the
+// confusion matrix.
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,5 +32,12 @@ std::vector<std::optional<Label>> final_labels(std::span<const AnswerRow> answer
 /// @return none where the order is correct, or there are not three differently labeled cubes
 std::optional<Swap> swap_of(std::span<const double> masses_g,
                             std::span<const std::optional<Label>> labels);
+
+/// Number of cubes -> labels given [cube][label], both from the lightest on.
+using LabelMatrices = std::map<int, std::vector<std::vector<int>>>;
+
+/// Counts a trial's labels by the rank of their cubes. @param masses_g, given  by slot
+void count_labels(LabelMatrices& matrices, std::span<const double> masses_g,
+                  std::span<const std::optional<Label>> given);
 
 }  // namespace heft

@@ -33,22 +33,6 @@ constexpr Measure swapped{
 constexpr Measure labels{"sorting_confusion_count", "", "labels",
                          "confusion matrix: number of answered trials in which a cube got a label"};
 
-// Number of cubes -> labels given [cube][label], both from the lightest on.
-using LabelMatrices = std::map<int, std::vector<std::vector<int>>>;
-
-// Counts labels by cube, both by rank.
-void count_labels(LabelMatrices& matrices, std::span<const double> masses_g,
-                  std::span<const std::optional<Label>> given) {
-  const auto names = Sorting::labels_for(static_cast<int>(masses_g.size()));
-  auto& matrix = matrices[static_cast<int>(masses_g.size())];
-  matrix.resize(masses_g.size(), std::vector<int>(masses_g.size()));
-  for (std::size_t slot = 0; slot < masses_g.size(); ++slot) {
-    const auto rank = static_cast<std::size_t>(
-        std::ranges::count_if(masses_g, [&](double mass_g) { return mass_g < masses_g[slot]; }));
-    const auto label = std::find(names.begin(), names.end(), given[slot]);
-    if (label != names.end()) matrix[rank][static_cast<std::size_t>(label - names.begin())] += 1;
-  }
-}
 // Completed trials of one condition. A participant's sessions count together.
 struct Counted {
   Tallies correct, incorrect, none, answered_correct, answered_incorrect;
@@ -96,9 +80,8 @@ StudyEstimate share(const Tallies& tallies, std::string of, std::string answer,
 StudyEstimate equivalence_of(const Tallies& answered_correct) {
   StudyEstimate estimate = share(answered_correct, "answered", "correct", nullptr);
   estimate.measure = &equivalence;
-  const auto interval = interval_percent_of(answered_correct, 0.9);
   estimate.low = estimate.high = std::nullopt;
-  estimate.set(interval);
+  estimate.set(interval_percent_of(answered_correct, 0.9));
   return estimate;
 }
 
@@ -195,15 +178,15 @@ EstimateTable sorting_table() {
 }
 
 EstimateTable chance_table() {
-  EstimateTable table{"sorting_chance",
-                      "Sorting: correct by chance",
-                      {key_column("condition", "condition"),
-                       column(chance, Field::value, "chance_percent", "chance %", 1, "chance"),
-                       column(chance, Field::n_trials, "n_trials", "trials"),
-                       column(chance, Field::n, "n_participants", "n")}};
-  table.place = TablePlace::report;
-  table.json = "sorting.{condition}";
-  return table;
+  return {"sorting_chance",
+          "Sorting: correct by chance",
+          {key_column("condition", "condition"),
+           column(chance, Field::value, "chance_percent", "chance %", 1, "chance"),
+           column(chance, Field::n_trials, "n_trials", "trials"),
+           column(chance, Field::n, "n_participants", "n")},
+          "",
+          TablePlace::report,
+          "sorting.{condition}"};
 }
 
 EstimateTable swaps_table() {
@@ -235,11 +218,12 @@ EstimateTable label_table() {
 EstimateTable participants_table() {
   EstimateTable table{"sorting_by_participant",
                       "Correct sortings of each participant",
-                      {key_column("participant", "participant")}};
+                      {key_column("participant", "participant")},
+                      "",
+                      TablePlace::csv};
   EstimateColumn each = column(answers, Field::value, "_percent", " %");
   each.spread = "condition";
   table.columns.push_back(each);
-  table.place = TablePlace::csv;
   table.participants = true;
   return table;
 }
@@ -285,6 +269,14 @@ std::string chance_in_words(const Summary& summary, const std::string& condition
   return fmt::format(
       "{:.0f} %",
       find_estimate(summary.estimates, chance.name, {{"condition", condition}})->value.value_or(0));
+}
+
+// The best conditions in a sentence.
+std::string first_few(std::span<const std::string> conditions) {
+  constexpr std::size_t most = 4;
+  if (conditions.size() <= most) return fmt::format("{}", fmt::join(conditions, "; "));
+  return fmt::format("{}; {} more conditions in the tables",
+                     fmt::join(conditions.first(most), "; "), conditions.size() - most);
 }
 
 class SortingSection final : public Section {
@@ -335,11 +327,7 @@ class SortingSection final : public Section {
       parts.push_back(condition_in_words(summary, one->condition));
       chances.insert(chance_in_words(summary, one->condition));
     }
-    const std::size_t n_more = parts.size() - std::min(parts.size(), std::size_t{4});  // not shown
-    parts.resize(parts.size() - n_more);
-    std::string text = fmt::format("Sorting: {}", fmt::join(parts, "; "));
-    if (n_more > 0) text += fmt::format("; {} more conditions in the tables", n_more);
-    return {fmt::format("{}. Chance is {}.", text, fmt::join(chances, " or ")),
+    return {fmt::format("Sorting: {}. Chance is {}.", first_few(parts), fmt::join(chances, " or ")),
             sorting_verdicts(summary)};
   }
 
