@@ -110,6 +110,8 @@ TEST(DeclaredHypotheses, NeedThePapersTrials) {
   };
   EXPECT_THAT(untestable(sorting("[15, 200, 800]", "{ C2 = 2 }")),
               ElementsAre("E1-H1", "E1-H3", "E2-H1"));
+  EXPECT_THAT(untestable(sorting("[15, 200, 800]", "{ C2 = 2 }\ntable_friction = [1, 0.8, 0.8]")),
+              testing::Contains("E1-H2"));
   EXPECT_THAT(untestable(sorting("[15, 250, 800]", "{ C1 = 2, C2 = 2 }")),
               ElementsAre("E1-H1", "E1-H2", "E1-H3", "E2-H1"));
   EXPECT_THAT(

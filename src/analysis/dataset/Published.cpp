@@ -60,7 +60,7 @@ struct PapersTasks {
  private:
   void add(const TaskBlock& block) {
     const auto* sorting = block.as<heft::Sorting::Block>();
-    if (sorting && are(sorting->masses_g, sorting_masses_g))
+    if (sorting && are(sorting->masses_g, sorting_masses_g) && sorting->table_friction.empty())
       for (const TechniqueTrials& one : sorting->trials)
         if (const auto condition = condition_named(one.technique)) sorted.insert(*condition);
     const auto* first = block.as<Introduction::Block>();
