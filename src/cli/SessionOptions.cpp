@@ -4,7 +4,6 @@
 
 #include <filesystem>
 
-#include "analysis/dataset/Published.h"
 #include "base/Error.h"
 #include "base/Names.h"
 #include "base/SimulationChoices.h"
@@ -12,7 +11,6 @@
 #include "cli/console/TerminalConsole.h"
 #include "physics/DecouplingSimulator.h"
 #include "physics/auto/Choice.h"
-#include "physics/scene/Oracles.h"
 #include "protocol/Protocol.h"
 #include "record/writer/Backup.h"
 #include "replay/Replay.h"
@@ -178,59 +176,6 @@ void print_simulator(const ResolvedConfig& config) {
   for (const std::string& caution : cautions(*config->protocol)) say("heft: {}\n", caution);
 }
 
-bool has_compliant_contacts(const Protocol& protocol) {
-  return protocol.contact_compliance_m_per_n > 0 ||
-         std::ranges::any_of(protocol.techniques, [](const Technique& technique) {
-           return technique.contact_compliance_m_per_n.value_or(0) > 0;
-         });
-}
-
-// Warns of simulators that model one stroke or rigid contacts only, of settings that displace the
-// clone from the filmed effector, which participants interpret as mass, of resets that reveal it,
-// and of declared hypotheses that the protocol cannot test.
-std::vector<std::string> cautions(const Protocol& protocol) {
-  constexpr double stroke_m_s = 0.3;
-  const auto& [mode, predict_s] = protocol.simulator.input;
-  std::vector<std::string> found;
-  const std::string& simulator = protocol.simulator.name;
-  if (!entry_named("simulator", simulator, simulators()).for_sessions)
-    found.push_back(fmt::format(
-        "[physics] simulator = \"{}\" models one straight push: sessions refuse it if a hand "
-        "does more: use \"boxes\" or \"auto\"",
-        simulator));
-  if (has_compliant_contacts(protocol) && !models_compliance(simulator))
-    found.push_back(fmt::format(
-        "contact_compliance_m_per_n has no effect: the contacts of \"{}\" are rigid; use \"boxes\"",
-        simulator));
-  if (mode == InputMode::hold || mode == InputMode::extrapolate)
-    found.push_back(
-        fmt::format("[physics] input = \"{}\" is for see-through displays; over video, where the "
-                    "clone is seen beside the filmed effector, it adds apparent mass: use \"path\"",
-                    name_of(mode)));
-  if (protocol.layout.out_of_area == OutOfArea::give_back)
-    found.emplace_back(
-        "[layout] out_of_area = \"return\", the default, reveals the mass: light "
-        "cubes jump back in most trials, heavy ones hardly ever: use \"together\"");
-  for (const auto& [name, needs] : published::untestable_in(protocol))
-    found.push_back(
-        fmt::format("[analysis] declares {}, which cannot be tested: it needs {}", name, needs));
-  if (predict_s > 0) {
-    const Scene scene = scene_of(protocol, coupled_technique, {});
-    const double ahead_m = stroke_m_s * predict_s;
-    const double slide_n_per_kg = sliding_force_n(scene.friction, 1, scene.gravity_m_s2);
-    const std::string false_mass =
-        slide_n_per_kg > 0
-            ? fmt::format(", about {:.0f} g of apparent mass",
-                          1e3 * scene.coupling.stiffness_n_per_m * ahead_m / slide_n_per_kg)
-            : "";
-    found.push_back(fmt::format(
-        "[physics] predict_s = {} is for see-through displays; over video the clone runs {:.0f} mm "
-        "ahead of an effector filmed at {} m/s{}: use 0",
-        predict_s, 1e3 * ahead_m, stroke_m_s, false_mass));
-  }
-  return found;
-}
-
 void add_unverified(Command& command, bool& unverified) {
   command.add_flag("--unverified", unverified,
                    "do not check first whether the log was changed; all figures are marked");
@@ -241,9 +186,11 @@ LogIntegrity integrity_of(const std::vector<std::string>& databases,
   if (unverified) return {false, "NOT VERIFIED"};
   ProgressBar bar("verifying");
   std::vector<std::string> heads;
-  for (const std::string& database : databases)
-    heads.push_back(short_head(
-        require_verified(database, session_ids, [&](double done) { bar.update(done, database); })));
+  for (const std::string& database : databases) {
+    const std::string head =
+        require_verified(database, session_ids, [&](double done) { bar.update(done, database); });
+    heads.push_back(head.empty() ? "none" : short_head(head));
+  }
   return {true, fmt::format("verified, head {}", fmt::join(heads, ", "))};
 }
 

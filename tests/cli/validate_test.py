@@ -166,6 +166,42 @@ protocol = "asks.toml"
         # 50 N/m times 15 mm are the friction of 95.6 g.
         self.assertRegex(predicted, rf"^{re.escape(path)}: .*predict_s = 0.05 .*15 mm .* 96 g")
 
+    def test_cautions_of_stop_rules_out_of_reach_and_of_quests_default_for_forced_choices(self):
+        staircase = ('[[block.staircase]]\nname = "{0}"\nreference_g = 200\nkind = "{0}"\n'
+                     'floor = 0\nstop_trials = 20\n')
+        comparison = '[[block]]\nkind = "comparison"\nname = "c"\n'
+        up_down = staircase.format("up_down") + "start = 100\nstep = 10\nstop_reversals = {}\n"
+        quest = staircase.format("quest") + "guess = 100\nguess_sd = 80\nbeta = 0.02\ngrain = 2\n"
+        reversals = '"up_down" cannot reach its 20 reversals in 20 trials'
+        gamma = '"quest" expects positive answers to a share gamma = 0.5 of trials'
+        for block, expected in ((comparison + up_down.format(20), reversals),
+                                (comparison + up_down.format(19), None),
+                                (comparison + quest, gamma),
+                                (comparison + quest + "gamma = 0.05\n", None),
+                                (comparison + 'answers = "heavier"\n' + quest, None)):
+            run = self.validate(self.file(
+                "a.toml", 'title = "t"\n[layout]\nout_of_area = "together"\n' + block))
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertEqual(len(run.stderr.splitlines()), 1 if expected else 0, run.stderr)
+            self.assertIn(expected or "", run.stderr)
+
+    def test_a_language_that_does_not_exist_is_named_with_its_place(self):
+        text = (PROTOCOLS / "paper.toml").read_text(encoding="utf-8")
+        path = self.file("a.toml", "# in the language \"de\"\n"
+                         + text.replace('language = "en"', 'language = "de"'))
+        line = text[:text.index('language = "en"')].count("\n") + 2
+        run = self.validate(path)
+        self.assertEqual(run.returncode, 3)
+        self.assertIn(f'{path}:{line}:12: there is no language "de"', run.stderr)
+
+    def test_large_letters_are_checked_on_screens_of_the_protocols_tasks_only(self):
+        text = (PROTOCOLS / "paper.toml").read_text(encoding="utf-8")
+        run = self.validate(self.file("a.toml", text.replace("text_size = 1", "text_size = 2")))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        pages = set(re.findall(r"1024 x 600: trial_(\w+):", run.stderr))
+        self.assertIn("sorting", pages)
+        self.assertLessEqual(pages, {"introduction", "sorting", "comparison"})
+
     def test_says_what_it_took_a_file_for(self):
         procedure, scene = self.file("a.toml", PROCEDURE), self.file("b.toml", SCENE)
         run = self.validate(procedure, scene)

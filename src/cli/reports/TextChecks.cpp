@@ -11,6 +11,7 @@
 #include "engine/RunningAttempt.h"
 #include "protocol/Protocol.h"
 #include "protocol/readers/Files.h"
+#include "tasks/Task.h"
 #include "view/screens/TextFit.h"
 #include "view/text/Typeface.h"
 
@@ -74,6 +75,19 @@ SessionWords words_of(const Protocol& protocol, const std::string& protocol_file
   return words;
 }
 
+// Whether a page is of a task that the protocol lacks.
+bool is_of_other_task(const std::string& page, const Protocol& protocol) {
+  const auto is_page_of = [&](const Task& task) {
+    return page == text_page(Screen::trial, task) || page == text_page(Screen::instructions, task);
+  };
+  const auto is_in_block = [&](const Block& block) {
+    const auto* trials = std::get_if<TaskBlock>(&block);
+    return trials && is_page_of(Task(trials->task().name));
+  };
+  return std::ranges::any_of(heft::words_of<Task>(), is_page_of) &&
+         std::ranges::none_of(protocol.blocks, is_in_block);
+}
+
 void add_missing_characters(const SessionWords& words, WordFaults& faults) {
   std::map<std::string, std::vector<MissingCharacter>> by_file;
   for (const MissingCharacter& one : missing_characters(words.texts))
@@ -81,15 +95,25 @@ void add_missing_characters(const SessionWords& words, WordFaults& faults) {
   for (const auto& [file, lacking] : by_file) add_missing_characters(lacking, file, faults);
 }
 
-// Where a questionnaire is named as that of a trial's question.
-SourcePlace place_of_question(const std::string& questionnaire, const std::string& protocol_text,
-                              const std::string& file) {
-  const auto at = protocol_text.find('"' + questionnaire + '.');
-  if (at == std::string::npos) return {file};
-  const std::string before = protocol_text.substr(0, at);
-  const auto line_start = before.rfind('\n') + 1;  // npos + 1 is 0
-  return {file, static_cast<int>(std::ranges::count(before, '\n')) + 1,
-          static_cast<int>(at - line_start) + 1};
+// Where a protocol first has a value that begins so, outside comments.
+SourcePlace place_of_value(const std::string& beginning, const std::string& protocol_text,
+                           const std::string& file) {
+  int number = 0;
+  for (const std::string_view line : lines_of(protocol_text)) {
+    ++number;
+    const auto at = line.find('"' + beginning);
+    if (at < line.find('#')) return {file, number, static_cast<int>(at) + 1};
+  }
+  return {file};
+}
+
+// Names the place of a language that does not exist, if the protocol chooses it.
+void check_language(const Protocol& protocol, const std::string& protocol_file,
+                    const std::string& language) try {
+  texts_file(language);
+} catch (const Error& error) {
+  if (language != protocol.screens.language) throw;
+  throw InvalidFile({{place_of_value(language + '"', protocol.text, protocol_file), error.what()}});
 }
 
 // Checks that the questions of trials exist and fit beside the cubes.
@@ -104,14 +128,14 @@ void check_questions(Protocol protocol, const std::string& protocol_file, const 
     const std::string& file = words.file_of(questionnaire_page(name));
     if (trials->lacks_question()) {
       faults.mistakes.push_back(
-          {place_of_question(name, protocol.text, protocol_file),
+          {place_of_value(name + '.', protocol.text, protocol_file),
            fmt::format("block {} asks a question of the questionnaire {} that {} lacks; expected "
                        "one that is answered on the screen",
                        trials->name(), name, file)});
       continue;
     }
     if (const auto mistake = trials->mistake_in_question()) {
-      faults.mistakes.push_back({place_of_question(name, protocol.text, protocol_file),
+      faults.mistakes.push_back({place_of_value(name + '.', protocol.text, protocol_file),
                                  fmt::format("block {}: {}", trials->name(), *mistake)});
       continue;
     }
@@ -138,6 +162,7 @@ WordFaults faults_in_words(const ScreenTexts& texts, const std::string& file) {
 
 WordFaults faults_in_words(const Protocol& protocol, const std::string& protocol_file,
                            const std::string& language) {
+  check_language(protocol, protocol_file, language);
   const SessionWords words = words_of(protocol, protocol_file, language);
   const double text_size = protocol.screens.text_size;
   const bool is_shipped = !language.ends_with(".toml");
@@ -146,6 +171,7 @@ WordFaults faults_in_words(const Protocol& protocol, const std::string& protocol
   add_missing_characters(words, faults);
   for (const std::string& sentence : misfits(words.texts, text_size)) {
     const std::string page = sentence.substr(0, sentence.find(": "));
+    if (is_of_other_task(page, protocol)) continue;
     faults.cautions.push_back(words.file_of(page) + ": " + on_smallest_screen(sentence));
   }
   check_questions(protocol, protocol_file, words, faults);
