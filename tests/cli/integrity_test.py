@@ -285,6 +285,8 @@ class Withdrawal(Integrity):
         for copy in ("copies/P02_session2", "lab.db.old", "data (10 files"):
             self.assertIn(copy, done.stdout)
         listed = self.run_heft("withdraw", "--db", self.db, "--session", 1, "--yes").stdout
+        # First the copies, because nothing names the person if it is killed afterwards.
+        self.assertLess(listed.index("copies, in"), listed.index("session 1 is withdrawn"))
         self.assertIn("copies/P02_session2", listed)  # which has the first session, too
 
     def test_it_is_neither_done_by_accident_nor_twice(self):

@@ -74,7 +74,7 @@ std::map<std::string, std::vector<std::string>> by_folder(const std::set<std::st
 void report_copies(const Found& found, const WithdrawOptions& options) {
   const std::set<std::string> copies =
       copies_of_session(found.folders, options.db, found.facts.row.header);
-  print("copies that remain, in {}:\n", fmt::format("{}", fmt::join(found.folders, ", ")));
+  print("copies, in {}:\n", fmt::format("{}", fmt::join(found.folders, ", ")));
   for (const auto& [folder, names] : by_folder(copies))
     if (names.size() > 3)
       print("  {} ({} files, such as {})\n", folder, names.size(), names.front());
@@ -110,9 +110,9 @@ void withdraw(const WithdrawOptions& options) {
                 ExitCode::usage);
   }
   confirm(found.facts, options);
+  report_copies(found, options);  // before, because afterwards nothing names the person
   const Withdrawal done = withdraw_session(options.db, *options.session, utc_now());
   print("session {} is withdrawn; head of the log: {}\n", *options.session, short_head(done.head));
-  report_copies(found, options);
   refuse_if_left_in_file(done.why_not_overwritten, options);
 }
 }  // namespace
