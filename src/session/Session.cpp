@@ -102,7 +102,8 @@ void refuse_changed_log(const LogReader& reader, const LoggedSession& session) {
   if (const auto damage = check_integrity(session.db); !damage.empty())
     throw Error(
         fmt::format("session {} in {} cannot be continued: the file is damaged ({}). Keep a "
-                    "copy of it and continue with a backup.",
+                    "copy of it and of the files beside it that end in -wal and -shm, and continue "
+                    "with a backup.",
                     session.row.session_id, session.db, damage.front()),
         ExitCode::diverged);
   throw Error(fmt::format("session {} in {} cannot be continued: the log was changed; {}. "

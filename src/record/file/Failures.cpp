@@ -47,7 +47,9 @@ SqliteFailure described_failure(int code, int extended_code, int system_error) {
       return {"the file is locked by another program", "Close the other program"};
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
-      return {"the file is damaged", "Keep a copy of it and continue with a backup"};
+      return {"the file is damaged, or the disk that it is on fails",
+              "Check the disk, keep a copy of the file together with those beside it that end in "
+              "-wal and -shm, and continue with a backup"};
     case SQLITE_CANTOPEN:
       return {"the file or its -wal or -shm file cannot be opened",
               "Check that the folder exists and is writable"};
