@@ -66,7 +66,17 @@ class XAxis {
     const std::string text = text_of(one, coordinate_);
     return static_cast<double>(std::ranges::find(texts_, text) - texts_.begin()) + aside * step();
   }
-  std::string axes() const {
+  // Height in pixels of names that are turned because they do not fit beside each other; 0: they
+  // do.
+  int turned_px(int width_px) const {
+    constexpr double character_px = 7.5, sine = 0.5;
+    std::size_t longest = 0;
+    for (const std::string& text : texts_) longest = std::max(longest, text.size());
+    const double name_px = character_px * static_cast<double>(longest);
+    const bool fit = name_px * static_cast<double>(texts_.size()) <= width_px;
+    return fit ? 0 : static_cast<int>(sine * name_px);
+  }
+  std::string axes(int width_px) const {
     if (is_numeric() && logarithmic_)
       return fmt::format(
           "set xrange [{}:{}]\n{}", low() / 1.3, high() * 1.3,
@@ -80,8 +90,9 @@ class XAxis {
     std::string tics;
     for (std::size_t i = 0; i < texts_.size(); ++i)
       tics += fmt::format("{}{} {}", i == 0 ? "" : ", ", gnuplot_quoted(texts_[i]), i);
-    return fmt::format("set xrange [-0.6:{}]\nset xtics scale 0 ({})\n",
-                       static_cast<double>(texts_.size()) - 0.4, tics);
+    return fmt::format("set xrange [-0.6:{}]\nset xtics scale 0 {} ({})\n",
+                       static_cast<double>(texts_.size()) - 0.4,
+                       turned_px(width_px) > 0 ? "rotate by 30 right" : "norotate", tics);
   }
 
  private:

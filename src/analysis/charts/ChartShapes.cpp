@@ -57,7 +57,8 @@ class Drawing {
         spec_.shape == ChartShape::scatter)
       chart.n = n_people();
     PlotFrame frame;
-    if (panels.size() > 1) frame.panel_width_px = 300;
+    frame.panel_width_px = panel_width_px();
+    for (const PlotPanel& panel : panels) frame.tics_px = std::max(frame.tics_px, panel.tics_px);
     if (spec_.shape == ChartShape::matrix) {
       frame.left_px = frame.gap_x_px = 130;  // for the names of the rows
       frame.panel_width_px = 300;
@@ -117,6 +118,13 @@ class Drawing {
     return static_cast<int>(names.size());
   }
 
+  int panel_width_px() const { return panels_.size() > 1 ? 300 : 600; }
+
+  void put_axis(PlotPanel& panel, const XAxis& axis) const {
+    panel.axes += axis.axes(panel_width_px());
+    panel.tics_px = axis.turned_px(panel_width_px());
+  }
+
   PlotPanel panel_named(const std::string& name) const {
     PlotPanel panel{name, "", {}};
     const std::vector<Drawn> all = drawn_in(name);
@@ -131,7 +139,7 @@ class Drawing {
     const bool joined = spec_.shape == ChartShape::lines;
     const bool side_by_side = !joined && !spec_.has_bands();
     const XAxis axis(all, spec_.x, has_axes("logscale x"));
-    panel.axes += axis.axes();
+    put_axis(panel, axis);
     std::string published;
     for (const ChartSeries& series : spec_.series) add_band(panel, axis, series);
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -229,7 +237,7 @@ class Drawing {
 
   PlotPanel linked(PlotPanel panel, const std::vector<Drawn>& all) const {
     const XAxis axis(all, spec_.x);
-    panel.axes += axis.axes();
+    put_axis(panel, axis);
     for (const Drawn& drawn : all) {
       std::map<std::string, std::string> lines;
       for (const StudyEstimate* one : drawn.estimates) {

@@ -5,6 +5,7 @@
 
 #include "analysis/Figures.h"
 #include "analysis/MadeUpSessions.h"
+#include "analysis/charts/Charts.h"
 
 namespace heft {
 namespace {
@@ -70,6 +71,20 @@ TEST(JudgmentMeans, AreGeometricWhereTheQuestionTakesOnlyNumbersAboveZero) {
   EXPECT_EQ(light.method, "geometric, Student's t");
   const Summary from_zero = summarized(two_people(question(QuestionKind::number, 0)));
   EXPECT_EQ(*figure(from_zero, "judgment_mean", {{"masses_g", "100"}}).value, 4.5);
+}
+
+// Names of many sets of cubes would overlap beside each other.
+TEST(JudgmentMeans, OfManySetsHaveTurnedNamesInTheChart) {
+  for (const std::size_t n_sets : {2, 9}) {
+    SessionData data = session(1, "a");
+    data.judgments["pairs"] = {question(QuestionKind::slider)};
+    for (std::size_t i = 1; i <= n_sets; ++i)
+      add_judgment(data, {100, 200, 300.0 + 100 * static_cast<double>(i)}, 5);
+    std::string script;
+    for (const Chart& chart : charts_of(summarized({data})))
+      if (chart.name == "judgment") script = chart.script;
+    EXPECT_EQ(script.find("set xtics scale 0 rotate") != std::string::npos, n_sets > 2) << script;
+  }
 }
 
 TEST(JudgmentMeans, DoNotEnterMagnitudeEstimation) {
