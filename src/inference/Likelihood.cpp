@@ -109,7 +109,10 @@ Maximum Likelihood::climb(Parameters from, Eigen::Index held) {
 Maximum Likelihood::climb_by_score(Parameters from, Eigen::Index held, Accuracy accuracy) {
   Maximum here{within_bounds(std::move(from)), 0};
   here.log_likelihood = function_(here.at, &derivatives_);
+  double before = -infinity;
   for (int i = 0; i < 100; ++i) {
+    if (i % 10 == 0 && here.log_likelihood < before + accuracy.rise) return here;
+    if (i % 10 == 0) before = here.log_likelihood;
     const Parameters step = within_reach(step_against(derivatives_.gradient, here.at, held));
     if (!(step.dot(derivatives_.gradient) > accuracy.gain)) return here;
     const double low = here.log_likelihood - accuracy.value;

@@ -25,6 +25,7 @@ inline const Maximum& likelier(const Maximum& first, const Maximum& second) {
 struct Accuracy {
   double gain = 0;   ///< a maximum is where Newton's method expects no larger gain
   double value = 0;  ///< error of values at different points
+  double rise = 0;   ///< ten steps that raise the value by less are in vain
 };
 
 /// A log likelihood within bounds, and the searches for its maximum. Constructor arguments must

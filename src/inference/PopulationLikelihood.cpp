@@ -14,9 +14,8 @@ namespace {
 // Fewer take less time than a thread does to start.
 constexpr std::size_t people_at_once = 32;
 
-// Error of the log likelihood by the quadrature, and the larger one where some people chose a cube
-// and others never did.
-constexpr double of_quadrature = 1e-3, of_choices_of_few = 0.5;
+// Error of the log likelihood where some people chose a cube and others never did.
+constexpr double of_choices_of_few = 0.5;
 
 Parameters within(Parameters at, const std::vector<ParameterBounds>& bounds) {
   for (Eigen::Index i = 0; i < at.size(); ++i) {
@@ -98,7 +97,7 @@ Maximum PopulationLikelihood::climb(Parameters from, Eigen::Index held) {
   const LogLikelihood function = log_likelihood();
   const Starts starts{{from}};
   return Likelihood(function, bounds_, starts)
-      .climb_by_score(from, held, {held < 0 ? 1e-7 : 1e-5, of_choices_of_few});
+      .climb_by_score(from, held, {held < 0 ? 1e-7 : 1e-5, of_choices_of_few, of_quadrature()});
 }
 
 // From the likeliest start with a small and with a large spread of sensitivities: both may be local
@@ -218,7 +217,7 @@ PopulationLikelihood::ProfileInterval PopulationLikelihood::interval(Maximum& be
     ProfileEnd low(*this, best, of, drop), high(*this, best, of, drop);
     const ProfileInterval found{low.search(-step, change), high.search(step, change)};
     const Maximum likeliest = likelier(low.likeliest(), high.likeliest());
-    if (i == 5 || likeliest.log_likelihood <= best.log_likelihood + of_quadrature) return found;
+    if (i == 5 || likeliest.log_likelihood <= best.log_likelihood + of_quadrature()) return found;
     best = climb(likeliest.at);
   }
 }

@@ -47,6 +47,8 @@ class PopulationLikelihood {
   const std::vector<ParameterBounds>& bounds() const { return bounds_; }
 
  private:
+  /// Error of the log likelihood by the quadrature.
+  double of_quadrature() const { return 1e-4 * static_cast<double>(people_.size()); }
   Parameters start(double log_sensitivity) const;
   double value(const Parameters& at, Derivatives* derivatives);
   LogLikelihood log_likelihood();

@@ -61,7 +61,7 @@ class Labs(SessionTest):
                           "800 g from 700 g, steps 200 g", "after 10 reversals", "but the first 2",
                           "Levitt, H. (1971)", "60 sorting"],
                 "forced": ["3 simulated participants", "each 4 times", "steps 80, 40, 20 g",
-                           "2 % lapses"]}.items():
+                           "2 % of the answers wrong"]}.items():
             self.run_heft("analyse", "--db", f"{lab}.db", "--out", lab, cwd=self.folder)
             page = (self.folder / lab / "report.html").read_text(encoding="utf-8")
             methods = re.search('<h2 id="methods">.*?</ul>', page, re.S).group()
