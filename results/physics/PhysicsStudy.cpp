@@ -36,6 +36,7 @@ void run_physics_study(const StudyOptions& options) {
   write_tables(options, measurements);
   draw_work_precision(options);
   study_hands(options);
+  study_promise(options);
   study_growth(options);
   study_lag(options);
   study_input(options);

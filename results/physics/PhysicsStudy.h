@@ -1,10 +1,14 @@
 // `heft bench physics`: cost, error and failures of the simulators.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "results/Study.h"
+#include "results/physics/scenes/RandomScenes.h"
+#include "results/physics/scenes/SceneRun.h"
 
 namespace heft {
 
@@ -12,6 +16,25 @@ void run_physics_study(const StudyOptions& options);
 
 /// hands.csv and hands.svg: quantiles of the errors in random scenes of simulated hands.
 void study_hands(const StudyOptions& options);
+
+/// A simulator that `auto` chooses from, at its rate, in a random scene that it models.
+struct PromisedRun {
+  std::string_view simulator;
+  Setting setting = Setting::straight;
+  int scene = 0;  ///< its number in the setting
+  RunOutcome outcome = RunOutcome::ran;
+  TrackError error{};  ///< lag 0 with techniques that have none
+
+  std::string_view hands() const;  ///< "even" or "uneven", see KnownError
+  /// "boxes, uneven": the promise that holds for it.
+  std::string group() const;
+  bool is_within(const Tolerance& tolerance) const;
+};
+/// @param n_each scenes of each setting, every second one with compliant contacts
+std::vector<PromisedRun> promised_runs(std::uint64_t seed, int n_each);
+
+/// promise.csv: the errors that `auto` promises, quantiles over random scenes.
+void study_promise(const StudyOptions& options);
 
 /// growth.csv and growth.svg: the cost of a step against the number of cubes.
 void study_growth(const StudyOptions& options);
