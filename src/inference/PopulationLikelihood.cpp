@@ -217,8 +217,11 @@ PopulationLikelihood::ProfileInterval PopulationLikelihood::interval(Maximum& be
     ProfileEnd low(*this, best, of, drop), high(*this, best, of, drop);
     const ProfileInterval found{low.search(-step, change), high.search(step, change)};
     const Maximum likeliest = likelier(low.likeliest(), high.likeliest());
-    if (i == 5 || likeliest.log_likelihood <= best.log_likelihood + of_quadrature()) return found;
-    best = climb(likeliest.at);
+    const double likelier_than = best.log_likelihood + of_quadrature();
+    if (i == 5 || likeliest.log_likelihood <= likelier_than) return found;
+    const Maximum there = climb(likeliest.at);
+    if (there.log_likelihood <= likelier_than) return found;  // it leads back to the estimate
+    best = there;
   }
 }
 
