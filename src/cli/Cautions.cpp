@@ -40,8 +40,8 @@ std::vector<std::string> cautions_of_procedures(const TaskBlock& block) {
     if (const auto* quest = one.staircase.get_if<Quest>())
       if (!is_forced && quest->config().gamma == QuestConfig().gamma)
         found.push_back(fmt::format(
-            "staircase \"{}\" expects positive answers to a share gamma = {} of trials without a "
-            "difference, which suits forced choices only: set gamma to the share of false alarms, "
+            "staircase \"{}\" expects a share gamma = {} of positive answers far below the "
+            "threshold, which suits forced choices only: set gamma to the share of false alarms, "
             "for example 0.05",
             one.staircase.name(), quest->config().gamma));
   }

@@ -173,7 +173,7 @@ protocol = "asks.toml"
         up_down = staircase.format("up_down") + "start = 100\nstep = 10\nstop_reversals = {}\n"
         quest = staircase.format("quest") + "guess = 100\nguess_sd = 80\nbeta = 0.02\ngrain = 2\n"
         reversals = '"up_down" cannot reach its 20 reversals in 20 trials'
-        gamma = '"quest" expects positive answers to a share gamma = 0.5 of trials'
+        gamma = '"quest" expects a share gamma = 0.5 of positive answers'
         for block, expected in ((comparison + up_down.format(20), reversals),
                                 (comparison + up_down.format(19), None),
                                 (comparison + quest, gamma),
