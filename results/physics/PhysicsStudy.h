@@ -26,14 +26,13 @@ struct PromisedRun {
   TrackError error{};  ///< lag 0 with techniques that have none
 
   std::string_view hands() const;  ///< "even" or "uneven", see KnownError
-  /// "boxes, uneven": the promise that holds for it.
-  std::string group() const;
-  bool is_within(const Tolerance& tolerance) const;
+  /// The largest of its errors as a multiple of the default tolerance.
+  double times_tolerance() const;
 };
 /// @param n_each scenes of each setting, every second one with compliant contacts
 std::vector<PromisedRun> promised_runs(std::uint64_t seed, int n_each);
 
-/// promise.csv: the errors that `auto` promises, quantiles over random scenes.
+/// promise.csv: the errors that `auto` promises, a quantile over random scenes.
 void study_promise(const StudyOptions& options);
 
 /// growth.csv and growth.svg: the cost of a step against the number of cubes.
