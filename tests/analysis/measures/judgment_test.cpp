@@ -75,7 +75,7 @@ TEST(JudgmentMeans, AreGeometricWhereTheQuestionTakesOnlyNumbersAboveZero) {
 
 // Names of many sets of cubes would overlap beside each other.
 TEST(JudgmentMeans, OfManySetsHaveTurnedNamesInTheChart) {
-  for (const std::size_t n_sets : {2, 9}) {
+  for (const std::size_t n_sets : {2u, 9u}) {
     SessionData data = session(1, "a");
     data.judgments["pairs"] = {question(QuestionKind::slider)};
     for (std::size_t i = 1; i <= n_sets; ++i)
