@@ -17,7 +17,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Optional;
 
 std::vector<std::string> mistakes_of(const auto& config) {
   std::vector<std::string> texts;
