@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -57,14 +58,9 @@ namespace {
 // 1941); the largest where there are too few scenes for that.
 double limit_of(std::vector<double> times) {
   std::ranges::sort(times);
-  const auto n = static_cast<double>(times.size());
-  // So many scenes are likely to exceed the limit even if it is too small: a binomial sum.
-  double term = std::pow(auto_share, n), sum = term;
-  std::size_t n_beyond = 0;
-  for (double k = 1; sum + (term *= (n - k + 1) / k * (1 - auto_share) / auto_share) <= 0.05; ++k) {
-    sum += term;
-    ++n_beyond;
-  }
+  // So many scenes are expected beyond the limit even if it is too small. Rounded down, 0 at least.
+  const boost::math::binomial beyond(static_cast<double>(times.size()), 1 - auto_share);
+  const auto n_beyond = static_cast<std::size_t>(boost::math::quantile(beyond, 0.05));
   return times[times.size() - 1 - n_beyond];
 }
 }  // namespace
