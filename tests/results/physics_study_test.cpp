@@ -52,8 +52,8 @@ class QuickStudy : public testing::Test {
 };
 
 TEST_F(QuickStudy, MakesEveryFileAndSaysWhereItIsFrom) {
-  for (const char* name :
-       {"work_precision", "references", "stability", "input", "lag_vs_mass", "hands", "growth"}) {
+  for (const char* name : {"work_precision", "references", "stability", "input", "lag_vs_mass",
+                           "hands", "promise", "growth"}) {
     const auto table = rows(std::string(name) + ".csv");
     EXPECT_FALSE(table.empty()) << name;
     for (const Row& row : table) {
@@ -69,7 +69,7 @@ TEST_F(QuickStudy, MakesEveryFileAndSaysWhereItIsFrom) {
 
 TEST_F(QuickStudy, DrawsEveryChart) {
   for (const char* name :
-       {"work_precision", "stability", "input", "lag_vs_mass", "hands", "growth"}) {
+       {"work_precision", "stability", "input", "lag_vs_mass", "hands", "promise", "growth"}) {
     const std::string path = folder + "/" + name + ".svg";
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "gnuplot is not installed";
     EXPECT_THAT(read_text_file(path), testing::HasSubstr("heft bench physics --quick")) << name;

@@ -33,7 +33,14 @@ std::string text_of(const Tolerance& tolerance) {
                      tolerance.turn_rms_rad * 180 / M_PI);
 }
 
-std::string promise_of(const Tolerance& known, const Tolerance& asked) {
+Tolerance times_tolerance(double factor) {
+  const Tolerance usual;
+  return {factor * usual.clone_rms_m, factor * usual.lag_g, factor * usual.cubes_rms_m,
+          factor * usual.turn_rms_rad};
+}
+
+std::string promise_of(double factor, const Tolerance& asked) {
+  const Tolerance known = times_tolerance(factor);
   return "within " + text_of(known) +
          (keeps(known, asked) ? "" : ", which is NOT within the tolerance of " + text_of(asked));
 }
@@ -45,12 +52,12 @@ SimulatorPick pick_of(const KnownError& known, const Scene& scene, double at_lea
     return {std::string(known.simulator), at_least_hz,
             "models a straight push of one cube, " + where_even};
   const std::string why = fmt::format(
-      "models everything; 99 % of simulated hands that push within 4 mm of the middle of "
-      "cubes on the table are {}; where hands turn by up to 35 degrees, push up to 30 mm beside "
-      "the middle or move stacked cubes, {}",
-      where_even,
+      "models everything; {0:g} % of simulated hands that push within 4 mm of the middle of "
+      "cubes on the table are {1}; where hands turn by up to 35 degrees, push up to 30 mm beside "
+      "the middle or move stacked cubes, {2}",
+      100 * auto_share, where_even,
       scene.contact_compliance_m_per_n > 0
-          ? "97 % are " + promise_of(*known.uneven, asked)
+          ? fmt::format("{:g} % are ", 100 * auto_share) + promise_of(*known.uneven, asked)
           : "rigid contacts have no unique result (set contact_compliance_m_per_n)");
   return {std::string(known.simulator),
           std::max(std::ceil(auto_rate_hz * times_faster(scene)), at_least_hz), why};
@@ -72,8 +79,8 @@ std::string described(const SimulatorPick& pick) {
 std::vector<SimulatorPick> simulator_ladder(const Scene& scene, double at_least_hz) {
   std::vector<SimulatorPick> ladder;
   for (const KnownError& known : table)
-    if (known.uneven ||
-        (keeps(known.even, scene.tolerance) && scene.contact_compliance_m_per_n == 0))
+    if (known.uneven || (keeps(times_tolerance(known.even), scene.tolerance) &&
+                         scene.contact_compliance_m_per_n == 0))
       ladder.push_back(pick_of(known, scene, at_least_hz));
   return ladder;
 }
