@@ -69,7 +69,7 @@ TEST_F(QuickStudy, MakesEveryFileAndSaysWhereItIsFrom) {
 
 TEST_F(QuickStudy, DrawsEveryChart) {
   for (const char* name :
-       {"work_precision", "stability", "input", "lag_vs_mass", "hands", "promise", "growth"}) {
+       {"work_precision", "stability", "input", "lag_vs_mass", "hands", "growth"}) {
     const std::string path = folder + "/" + name + ".svg";
     if (!std::filesystem::exists(path)) GTEST_SKIP() << "gnuplot is not installed";
     EXPECT_THAT(read_text_file(path), testing::HasSubstr("heft bench physics --quick")) << name;
