@@ -201,7 +201,7 @@ void back_up_and_report(const std::string& db, const std::string& folder, std::i
   } catch (const std::exception& error) {
     ring();
     say("heft: WARNING: there is NO BACKUP of session {}: {}. The session itself is saved in {}; "
-        "copy that file to a safe place: cp {} FOLDER\n",
+        "copy it and the files beside it to a safe place: cp {}* FOLDER\n",
         session_id, error.what(), db, shell_quoted(db));
   }
 }
