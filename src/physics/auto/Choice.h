@@ -23,8 +23,8 @@ struct SimulatorPick {
 };
 
 /// Errors of a simulator for simulated hands at auto_rate_hz, with the paper's spring, as multiples
-/// of the default tolerance: what auto_share of random scenes stay within, by those of
-/// `heft bench physics` (results/physics/promise.csv); the test AutoPromise has others.
+/// of the default tolerance. auto_share of scenes are within them, by the random scenes of
+/// `heft bench physics` (results/physics/promise.csv); the test AutoPromise tries others.
 struct KnownError {
   std::string_view simulator;
   /// Hands that sway and tremble and push within 4 mm of the middle of cubes on the table.
