@@ -23,11 +23,10 @@ struct PromisedRun {
   Setting setting = Setting::straight;
   int scene = 0;  ///< its number in the setting
   RunOutcome outcome = RunOutcome::ran;
-  TrackError error{};  ///< lag 0 with techniques that have none
+  TrackError error{};
+  double times_tolerance = 0;  ///< of its errors
 
   std::string_view hands() const;  ///< "even" or "uneven", see KnownError
-  /// The largest of its errors as a multiple of the default tolerance.
-  double times_tolerance() const;
 };
 /// @param n_each scenes of each setting, every second one with compliant contacts
 std::vector<PromisedRun> promised_runs(std::uint64_t seed, int n_each);

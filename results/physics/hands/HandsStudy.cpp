@@ -42,10 +42,7 @@ struct Runs {
     lag_g.push_back(scene.scene.displacement ? 0 : std::abs(error.lag_error_g));
     cubes_mm.push_back(error.cubes_rms_mm);
     turn_deg.push_back(error.clone_turn_rms_deg);
-    const Tolerance allowed;
-    n_over += error.clone_rms_mm > 1e3 * allowed.clone_rms_m || lag_g.back() > allowed.lag_g ||
-              error.cubes_rms_mm > 1e3 * allowed.cubes_rms_m ||
-              error.clone_turn_rms_deg > allowed.turn_rms_rad * 180 / M_PI;
+    n_over += times_tolerance(error, scene) > 1;
   }
 
   void add(const Runs& more) {
@@ -144,8 +141,7 @@ void study_hands(const StudyOptions& options) {
     progress.next(fmt::format("hands of seed {}: {}", options.seed, settings[s]));
     Group here;
     for (int n = 0; n < n_each; ++n) {
-      BenchScene scene = random_scene(static_cast<Setting>(s), options.seed, n);
-      if (n % 2 == 1) scene.scene.contact_compliance_m_per_n = random_compliance_m_per_n;
+      const BenchScene scene = random_hands(static_cast<Setting>(s), options.seed, n);
       const int poses_hz = poses_hz_of(scene);
       const auto run = [&](std::string_view name, int rate_hz) {
         return run_scene(make_simulator(name), scene, rate_hz, poses_hz, poses_hz);

@@ -142,4 +142,10 @@ BenchScene random_scene(Setting setting, std::uint64_t seed, int n) {
   return scene;
 }
 
+BenchScene random_hands(Setting setting, std::uint64_t seed, int n) {
+  BenchScene scene = random_scene(setting, seed, n);
+  if (n % 2 == 1) scene.scene.contact_compliance_m_per_n = random_compliance_m_per_n;
+  return scene;
+}
+
 }  // namespace heft

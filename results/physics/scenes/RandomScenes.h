@@ -91,5 +91,7 @@ int poses_hz_of(const BenchScene& random_scene);
 /// Scene n of a seed, equal on all machines, so that any scene can be run alone. Scenes without a
 /// unique rigid solution have compliant contacts.
 BenchScene random_scene(Setting setting, std::uint64_t seed, int n);
+/// The same, with compliant contacts in every second scene.
+BenchScene random_hands(Setting setting, std::uint64_t seed, int n);
 
 }  // namespace heft

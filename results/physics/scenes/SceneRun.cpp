@@ -111,6 +111,14 @@ TrackError error_of(const SceneTrack& track, const SceneTrack& reference, const 
   return error;
 }
 
+double times_tolerance(const TrackError& error, const BenchScene& scene) {
+  const Tolerance tolerance;
+  const double lag_g = scene.scene.displacement ? 0 : std::abs(error.lag_error_g);
+  return std::max({error.clone_rms_mm / (1e3 * tolerance.clone_rms_m), lag_g / tolerance.lag_g,
+                   error.cubes_rms_mm / (1e3 * tolerance.cubes_rms_m),
+                   error.clone_turn_rms_deg / (tolerance.turn_rms_rad * 180 / M_PI)});
+}
+
 double cpu_us_per_s(const SimulatorEntry& simulator, const BenchScene& scene, int rate_hz,
                     double at_least_s) {
   const std::vector<Pose> targets = targets_of(scene, rate_hz);

@@ -59,6 +59,9 @@ struct TrackError {
 
 /// @param track at a rate that divides the reference's
 TrackError error_of(const SceneTrack& track, const SceneTrack& reference, const BenchScene& scene);
+/// The largest of the errors as a multiple of the default tolerance; without that of the lag where
+/// the scene's technique has none.
+double times_tolerance(const TrackError& error, const BenchScene& scene);
 
 /// CPU time of this thread per simulated second, the best of several repeats: steps alone, without
 /// reading states. Unstable runs are measured until they fail.
