@@ -58,7 +58,6 @@ class Drawing {
       chart.n = n_people();
     PlotFrame frame;
     frame.panel_width_px = panel_width_px();
-    for (const PlotPanel& panel : panels) frame.tics_px = std::max(frame.tics_px, panel.tics_px);
     if (spec_.shape == ChartShape::matrix) {
       frame.left_px = frame.gap_x_px = 130;  // for the names of the rows
       frame.panel_width_px = 300;

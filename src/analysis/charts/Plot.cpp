@@ -123,7 +123,9 @@ void put_script(Chart& chart, const Summary& summary, const PlotFrame& frame,
   const int n_columns = std::min(frame.most_columns, static_cast<int>(panels.size()));
   const int n_rows = (static_cast<int>(panels.size()) + n_columns - 1) / n_columns;
   const int step_x_px = frame.panel_width_px + frame.gap_x_px;
-  const int step_y_px = frame.panel_height_px + frame.gap_y_px + frame.tics_px;
+  int tics_px = 0;
+  for (const PlotPanel& panel : panels) tics_px = std::max(tics_px, panel.tics_px);
+  const int step_y_px = frame.panel_height_px + frame.gap_y_px + tics_px;
   const int width_px = std::max(620, frame.left_px + n_columns * step_x_px + right_px);
   const int legend_px = frame.legend.empty() ? 0 : 20;
   const int panel_title_px = panels.front().title.empty() ? 12 : 30;

@@ -32,7 +32,6 @@ struct PlotFrame {
   int panel_width_px = 600, panel_height_px = 320;
   int most_columns = 3;
   int left_px = 108, gap_x_px = 44, gap_y_px = 108;
-  int tics_px = 0;       ///< height of turned names below the panels
   std::string axes{};    ///< gnuplot's lines about all panels
   std::string legend{};  ///< a line below the title
 };
