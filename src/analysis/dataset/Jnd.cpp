@@ -329,11 +329,10 @@ namespace {
 std::string why_no_mean(const Jnds& jnds) {
   const int n_above = jnds.n_censored(Censored::above), n_below = jnds.n_censored(Censored::below);
   const int n_missing = static_cast<int>(jnds.missing.size());
-  const int n_zero = jnds.n_zero(), n_exact = jnds.n() - n_above - n_below - n_missing - n_zero;
-  std::set<double> different;
-  for (const ParticipantJnd& one : jnds.participants)
-    if (one.censored == Censored::none && (one.jnd_g > 0 || n_zero == 0))
-      different.insert(one.jnd_g);
+  const std::vector<double> exact_g = jnds.exact_g();
+  const int n_exact = static_cast<int>(exact_g.size());
+  const int n_zero = jnds.n() - n_above - n_below - n_missing - n_exact;
+  const std::set<double> different(exact_g.begin(), exact_g.end());
   const bool most_are_exact = 2 * n_exact > jnds.n();
   if (most_are_exact && n_exact > 2 && different.size() > 1)
     return "the limits of its interval are more than a factor of 100 000 apart";
@@ -372,11 +371,12 @@ void put_participants(Estimates& all, StudyEstimate of, const Jnds& jnds) {
   for (const std::string& participant : jnds.missing) put(participant).why = "indeterminate";
 }
 
-int Jnds::n_zero() const {
-  if (model_ != FigureModel::log_normal) return 0;
-  return static_cast<int>(std::ranges::count_if(participants, [](const ParticipantJnd& one) {
-    return one.censored == Censored::none && one.jnd_g <= 0;
-  }));
+std::vector<double> Jnds::exact_g() const {
+  std::vector<double> exact_g;
+  for (const ParticipantJnd& one : participants)
+    if (one.censored == Censored::none && (one.jnd_g > 0 || model_ == FigureModel::normal))
+      exact_g.push_back(one.jnd_g);
+  return exact_g;
 }
 
 int Jnds::n_censored(Censored direction) const {

@@ -89,8 +89,8 @@ struct Jnds : FigureSummary {
   void put_means(FigureModel model);  ///< when all are added
   int n() const { return static_cast<int>(participants.size() + missing.size()); }
   int n_censored(Censored direction) const;
-  /// Exact JNDs of 0 g, which have no logarithm: in a log-normal mean they are below the others.
-  int n_zero() const;
+  /// Those that the mean takes as exact: JNDs of 0 g have no logarithm, and are below the others.
+  std::vector<double> exact_g() const;
 
  private:
   std::vector<double> as_logged_g_;
