@@ -63,9 +63,30 @@ struct SessionWords {
   }
 };
 
+// Where a protocol first has a value that begins so, outside comments.
+SourcePlace place_of_value(const std::string& beginning, const std::string& protocol_text,
+                           const std::string& file) {
+  int number = 0;
+  for (const std::string_view line : lines_of(protocol_text)) {
+    ++number;
+    const auto at = line.find('"' + beginning);
+    if (at < line.find('#')) return {file, number, static_cast<int>(at) + 1};
+  }
+  return {file};
+}
+
+// A language that does not exist is named with its place, if the protocol chooses it.
+std::string texts_file_of(const Protocol& protocol, const std::string& protocol_file,
+                          const std::string& language) try {
+  return texts_file(language);
+} catch (const Error& error) {
+  if (language != protocol.screens.language) throw;
+  throw InvalidFile({{place_of_value(language + '"', protocol.text, protocol_file), error.what()}});
+}
+
 SessionWords words_of(const Protocol& protocol, const std::string& protocol_file,
                       const std::string& language) {
-  ConfigFile file{texts_file(language)};
+  ConfigFile file{texts_file_of(protocol, protocol_file, language)};
   file.text = read_text_file(file.path);
   SessionWords words;
   for (const auto& [name, from] : add_questionnaires(file, protocol_file, protocol))
@@ -93,27 +114,6 @@ void add_missing_characters(const SessionWords& words, WordFaults& faults) {
   for (const MissingCharacter& one : missing_characters(words.texts))
     by_file[words.file_of(one.text.substr(0, one.text.find('.')))].push_back(one);
   for (const auto& [file, lacking] : by_file) add_missing_characters(lacking, file, faults);
-}
-
-// Where a protocol first has a value that begins so, outside comments.
-SourcePlace place_of_value(const std::string& beginning, const std::string& protocol_text,
-                           const std::string& file) {
-  int number = 0;
-  for (const std::string_view line : lines_of(protocol_text)) {
-    ++number;
-    const auto at = line.find('"' + beginning);
-    if (at < line.find('#')) return {file, number, static_cast<int>(at) + 1};
-  }
-  return {file};
-}
-
-// Names the place of a language that does not exist, if the protocol chooses it.
-void check_language(const Protocol& protocol, const std::string& protocol_file,
-                    const std::string& language) try {
-  texts_file(language);
-} catch (const Error& error) {
-  if (language != protocol.screens.language) throw;
-  throw InvalidFile({{place_of_value(language + '"', protocol.text, protocol_file), error.what()}});
 }
 
 // Checks that the questions of trials exist and fit beside the cubes.
@@ -162,7 +162,6 @@ WordFaults faults_in_words(const ScreenTexts& texts, const std::string& file) {
 
 WordFaults faults_in_words(const Protocol& protocol, const std::string& protocol_file,
                            const std::string& language) {
-  check_language(protocol, protocol_file, language);
   const SessionWords words = words_of(protocol, protocol_file, language);
   const double text_size = protocol.screens.text_size;
   const bool is_shipped = !language.ends_with(".toml");
