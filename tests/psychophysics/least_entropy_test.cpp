@@ -97,7 +97,8 @@ RC_GTEST_PROP(LeastEntropyProperty, ExpectsTheEntropyOfTheDefinition, ()) {
   space.parameters = space.model.is_indecision()
                          ? decltype(space.parameters){{{0.01, 0.02}, {0, 0.5, 1}, {0, 0.2}, {}}}
                          : decltype(space.parameters){{{10, 30}, {5, 10, 20}, {0, 0.1}, {}}};
-  space.parameters[3] = test::spaced(0.02, 0.2, *rc::gen::element(2, 3, 40)).values;
+  const std::vector<double> lapses[] = {{0.02}, {0, 0.05, 0.1}, test::spaced(0, 0.2, 40).values};
+  space.parameters[3] = *rc::gen::elementOf(std::vector(std::begin(lapses), std::end(lapses)));
   for (std::size_t i = 1; i < 4; ++i) space.is_nuisance[i] = *rc::gen::arbitrary<bool>();
   const auto table = std::make_shared<const LikelihoodTable>(space);
   PosteriorGrid grid(table);
