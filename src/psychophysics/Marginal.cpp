@@ -66,7 +66,8 @@ void LogWeights::normalize() {
   Eigen::Map<Eigen::ArrayXd> logs(logs_.data(), n), weights(weights_.data(), n);
   const double largest = logs.maxCoeff();
   logs -= largest;
-  weights = (logs > last_digit).select(logs.exp(), 0);
+  weights = logs.exp();
+  weights = (logs > last_digit).select(weights, 0);
   const double sum = weights.sum();
   weights /= sum;
   log_scale_ += largest;
@@ -74,8 +75,9 @@ void LogWeights::normalize() {
 }
 
 double LogWeights::entropy() const {
-  return log_sum_ - log_scale_ -
-         std::inner_product(weights_.begin(), weights_.end(), logs_.begin(), 0.0);
+  const auto n = static_cast<Eigen::Index>(logs_.size());
+  const Eigen::Map<const Eigen::VectorXd> weights(weights_.data(), n), logs(logs_.data(), n);
+  return log_sum_ - log_scale_ - weights.dot(logs);
 }
 
 void LevelEvidence::add(const std::array<bool, 3>& outcomes) {
@@ -97,8 +99,9 @@ double LevelEvidence::for_model(double log_model) const {
   return all_same ? 0 : log_model - log_constant_;
 }
 
-double finite_log(double p) {
-  return std::log(std::max(p, std::numeric_limits<double>::min()));
+void take_finite_log(std::vector<double>& p) {
+  Eigen::Map<Eigen::ArrayXd> values(p.data(), static_cast<Eigen::Index>(p.size()));
+  values = values.max(std::numeric_limits<double>::min()).log();
 }
 
 Estimate threshold_estimate(const Marginal& threshold, double log_bayes_factor) {

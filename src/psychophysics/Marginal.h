@@ -92,9 +92,9 @@ struct PosteriorStop {
   }
 };
 
-/// Log of a probability, finite: an impossible response counts against a point of a grid without
-/// excluding it.
-double finite_log(double p);
+/// Replaces probabilities by their logs, finite: an impossible response counts against a point of a
+/// grid without excluding it.
+void take_finite_log(std::vector<double>& p);
 
 /// Posterior mean and 95 % interval of a threshold. Without a value, as Censored::indeterminate,
 /// unless the responses depend on the level: a Bayes factor of 3 ("substantial", Jeffreys 1961).

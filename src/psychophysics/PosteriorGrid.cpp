@@ -38,14 +38,14 @@ std::shared_ptr<const LikelihoodTable> LikelihoodTable::shared(GridSpace space) 
 }
 
 namespace {
-OutcomeShares mixed(const OutcomeShares& inattentive, OutcomeShares shares) {
-  for (std::size_t k = 0; k < shares.size(); ++k)
-    shares[k] = inattentive[k] + attention(inattentive) * shares[k];
-  return shares;
-}
+using Mix = Eigen::RowVector4d;  // a row of LikelihoodTable::mixes
 
-double entropy_of(const OutcomeShares& shares) {
-  return -times_log(shares[0]) - times_log(shares[1]) - times_log(shares[2]);
+// The entropy of the outcome, in nats, if attentive trials have these shares.
+double entropy_of(const Mix& mix, const OutcomeShares& attentive) {
+  double entropy = 0;
+  for (std::size_t k = 0; k < attentive.size(); ++k)
+    entropy -= times_log(mix[static_cast<Eigen::Index>(k)] + mix[3] * attentive[k]);
+  return entropy;
 }
 
 // Shares of the outcomes of attentive trials: all that a normal variable cut at two places gives.
@@ -56,26 +56,34 @@ std::vector<OutcomeShares> any_attentive() {
       any.push_back({normal_cdf(low), normal_cdf(high) - normal_cdf(low), normal_cdf(-high)});
   return any;
 }
+
+// Shares and entropies that are as good as 0 are 0: products of smaller ones with weights are
+// denormal, and those take a hundred times longer.
+float in_table(double value) {
+  constexpr double least = 1e-10;
+  return value < least ? 0 : static_cast<float>(value);
+}
 }  // namespace
 
 LikelihoodTable::LikelihoodTable(GridSpace space)
     : space_(std::move(space)), n_points_(space_.n_points()) {
   order_points();
-  inattentive_.reserve(n_points_);
-  for (std::size_t i = 0; i < n_points_; ++i)
-    inattentive_.push_back(space_.model.inattentive(point(i)));
-  std::vector<std::size_t> mixes;
+  put_mixes();
+  std::vector<Eigen::Index> mixes;
   if (n_nuisance_ == 1) mixes = choose_mixes();
-  const std::size_t n_outcomes = space_.model.n_outcomes(), n_levels = space_.levels.size();
-  attentive_.reserve(n_points_ / n_alike_ * (n_outcomes - 1) * n_levels);
-  entropies_.reserve(n_points_ / n_alike_ * mixes.size() * n_levels);
-  visit_attentive(space_.levels, [&](std::size_t i, const std::vector<OutcomeShares>& attentive) {
+  const auto n_levels = static_cast<Eigen::Index>(space_.levels.size());
+  const auto n_mixes = static_cast<Eigen::Index>(mixes.size());
+  const std::size_t n_outcomes = space_.model.n_outcomes();
+  const Eigen::Index n_groups = static_cast<Eigen::Index>(n_points_) / n_alike_;
+  attentive_.resize(n_levels * static_cast<Eigen::Index>(n_outcomes - 1), n_groups);
+  entropies_.resize(n_levels, n_mixes * n_groups);
+  float *attentive = attentive_.data(), *entropy = entropies_.data();
+  visit_attentive(space_.levels, [&](Eigen::Index, const std::vector<OutcomeShares>& at_levels) {
     for (std::size_t k = 1; k < n_outcomes; ++k)
-      for (const OutcomeShares& shares : attentive)
-        attentive_.push_back(static_cast<float>(shares[k]));
-    for (const std::size_t mix : mixes)
-      for (const OutcomeShares& shares : attentive)
-        entropies_.push_back(static_cast<float>(entropy_of(mixed(inattentive_[i + mix], shares))));
+      for (const OutcomeShares& shares : at_levels) *attentive++ = in_table(shares[k]);
+    for (const Eigen::Index mix : mixes)
+      for (const OutcomeShares& shares : at_levels)
+        *entropy++ = in_table(entropy_of(mixes_.row(mix), shares));
   });
 }
 
@@ -89,10 +97,21 @@ void LikelihoodTable::order_points() {
       stride_[i] = stride;
       stride *= space_.parameters[i].size();
       alike = alike && i >= space_.model.n_attentive();
-      if (alike) n_alike_ = stride;
+      if (alike) n_alike_ = static_cast<Eigen::Index>(stride);
     }
     if (nuisance) n_nuisance_ = stride;
     alike = alike && n_nuisance_ == 1;  // not beyond a group of nuisance parameters
+  }
+}
+
+void LikelihoodTable::put_mixes() {
+  Eigen::Index n_mixes = 1;
+  for (std::size_t i = space_.model.n_attentive(); i < n_parameters; ++i)
+    n_mixes *= static_cast<Eigen::Index>(space_.parameters[i].size());
+  mixes_.resize(n_mixes == n_alike_ ? n_alike_ : static_cast<Eigen::Index>(n_points_), 4);
+  for (Eigen::Index i = 0; i < mixes_.rows(); ++i) {
+    const OutcomeShares shares = space_.model.inattentive(point(static_cast<std::size_t>(i)));
+    mixes_.row(i) << shares[0], shares[1], shares[2], attention(shares);
   }
 }
 
@@ -106,18 +125,16 @@ ParameterValues LikelihoodTable::point(std::size_t i) const {
 // mixes give those of all others, in linear combinations, within 1e-8 nats (an interpolative
 // decomposition; Cheng et al. 2005). Each mix that is chosen is the one farthest from all
 // combinations of those before, by Gram-Schmidt.
-std::vector<std::size_t> LikelihoodTable::choose_mixes() {
+std::vector<Eigen::Index> LikelihoodTable::choose_mixes() {
   constexpr double near_enough = 1e-8;
   const std::vector<OutcomeShares> attentive = any_attentive();
-  const auto n_alike = static_cast<Eigen::Index>(n_alike_);
-  Eigen::MatrixXd rest(static_cast<Eigen::Index>(attentive.size()), n_alike);
+  Eigen::MatrixXd rest(static_cast<Eigen::Index>(attentive.size()), n_alike_);
   double* entropy = rest.data();
-  for (std::size_t mix = 0; mix < n_alike_; ++mix)
-    for (const OutcomeShares& shares : attentive)
-      *entropy++ = entropy_of(mixed(inattentive_[mix], shares));
+  for (Eigen::Index mix = 0; mix < n_alike_; ++mix)
+    for (const OutcomeShares& shares : attentive) *entropy++ = entropy_of(mixes_.row(mix), shares);
 
   std::vector<Eigen::Index> chosen;
-  Eigen::MatrixXd projections(0, n_alike);
+  Eigen::MatrixXd projections(0, n_alike_);
   while (chosen.empty() || rest.cwiseAbs().maxCoeff() > near_enough) {
     rest.colwise().squaredNorm().maxCoeff(&chosen.emplace_back());
     const Eigen::VectorXd direction = rest.col(chosen.back()).normalized();
@@ -126,22 +143,25 @@ std::vector<std::size_t> LikelihoodTable::choose_mixes() {
     rest -= direction * projections.bottomRows(1);
   }
   combinations_ = projections(Eigen::all, chosen).triangularView<Eigen::Upper>().solve(projections);
-  return {chosen.begin(), chosen.end()};
+  return chosen;
 }
 
+// By group of points that are alike.
 template <typename Visit>
 void LikelihoodTable::visit_attentive(const std::vector<double>& levels, const Visit& visit) const {
   std::vector<OutcomeShares> attentive(levels.size());
-  for (std::size_t alike = 0; alike < n_points_; alike += n_alike_) {
-    const ParameterValues values = point(alike);
+  const auto n_alike = static_cast<std::size_t>(n_alike_);
+  for (std::size_t i = 0; i < n_points_; i += n_alike) {
+    const ParameterValues values = point(i);
     for (std::size_t x = 0; x < levels.size(); ++x)
       attentive[x] = space_.model.attentive(values, levels[x]);
-    visit(alike, attentive);
+    visit(static_cast<Eigen::Index>(i / n_alike), attentive);
   }
 }
 
 std::shared_ptr<const std::vector<double>> LikelihoodTable::log_likelihood(
     double level, const Response& response) const {
+  constexpr std::size_t most_points = 20'000;   // with more it is computed as fast as it is read
   constexpr std::size_t most_kept = 4'000'000;  // numbers: 32 MB
   const auto outcomes = space_.model.outcomes_of(response);
   {
@@ -150,15 +170,17 @@ std::shared_ptr<const std::vector<double>> LikelihoodTable::log_likelihood(
       return found->second;
   }
   auto log_likelihood = std::make_shared<std::vector<double>>(n_points_);
-  visit_attentive({level}, [&](std::size_t alike, const std::vector<OutcomeShares>& attentive) {
-    for (std::size_t i = alike; i < alike + n_alike_; ++i) {
-      const OutcomeShares shares = mixed(inattentive_[i], attentive[0]);
-      double p = 0;
-      for (std::size_t k = 0; k < outcomes.size(); ++k)
-        if (outcomes[k]) p += shares[k];
-      (*log_likelihood)[i] = finite_log(p);
-    }
+  Eigen::Map<Eigen::VectorXd> p(log_likelihood->data(), static_cast<Eigen::Index>(n_points_));
+  visit_attentive({level}, [&](Eigen::Index group, const std::vector<OutcomeShares>& attentive) {
+    Eigen::Vector4d counted = Eigen::Vector4d::Zero();
+    for (std::size_t k = 0; k < outcomes.size(); ++k)
+      if (outcomes[k]) {
+        counted[static_cast<Eigen::Index>(k)] = 1;
+        counted[3] += attentive[0][k];
+      }
+    p.segment(group * n_alike_, n_alike_) = mixes(group).lazyProduct(counted);
   });
+  take_finite_log(*log_likelihood);
   const std::lock_guard lock(kept_mutex_);
   if ((kept_.size() + 1) * n_points_ <= most_kept)
     kept_.try_emplace({level, outcomes}, log_likelihood);
@@ -176,6 +198,23 @@ Eigen::ArrayXd PosteriorGrid::expected_entropies() const {
   return table_->n_nuisance() > 1 ? marginal_entropies() : joint_entropies();
 }
 
+namespace {
+// The table's columns times weights, added up in double precision after every 64 columns.
+Eigen::VectorXd sum_of(const Eigen::Ref<const Eigen::MatrixXf>& table,
+                       const Eigen::VectorXd& weights) {
+  constexpr Eigen::Index at_once = 64;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(table.rows());
+  Eigen::VectorXf some(table.rows());
+  for (Eigen::Index first = 0; first < weights.size(); first += at_once) {
+    some.setZero();
+    for (Eigen::Index i = first; i < std::min(first + at_once, weights.size()); ++i)
+      if (weights[i] != 0) some += static_cast<float>(weights[i]) * table.col(i);
+    sum += some.cast<double>();
+  }
+  return sum;
+}
+}  // namespace
+
 // Total weight of some points, and that of their outcomes but the first: a row for each level.
 struct PosteriorGrid::Outcomes {
   double total = 0;
@@ -186,51 +225,33 @@ struct PosteriorGrid::Outcomes {
   }
 };
 
-PosteriorGrid::Outcomes PosteriorGrid::outcomes(std::size_t first, std::size_t n) const {
-  const std::size_t n_others = table_->space().model.n_outcomes() - 1;
-  Outcomes sums;
-  sums.others.setZero(static_cast<Eigen::Index>(table_->space().levels.size()),
-                      static_cast<Eigen::Index>(n_others));
-  OutcomeShares fixed{};
-  for (std::size_t alike = first; alike < first + n; alike += table_->n_alike()) {
-    double attentive = 0;
-    for (std::size_t i = alike; i < alike + table_->n_alike(); ++i) {
-      const double weight = weights()[i];
-      const OutcomeShares& shares = table_->inattentive(i);
-      sums.total += weight;
-      for (std::size_t k = 0; k < fixed.size(); ++k) fixed[k] += weight * shares[k];
-      attentive += weight * attention(shares);
-    }
-    if (attentive == 0) continue;
-    for (std::size_t k = 1; k <= n_others; ++k)
-      sums.others.col(static_cast<Eigen::Index>(k - 1)) +=
-          attentive * table_->attentive(alike, k).cast<double>();
-  }
-  for (std::size_t k = 1; k <= n_others; ++k)
-    sums.others.col(static_cast<Eigen::Index>(k - 1)) += fixed[k];
+// Of groups of points that are alike.
+PosteriorGrid::Outcomes PosteriorGrid::outcomes(Eigen::Index first, Eigen::Index n) const {
+  Eigen::Matrix4Xd shares(4, n);  // as in a table's mixes
+  for (Eigen::Index i = 0; i < n; ++i)
+    shares.col(i) = table_->mixes(first + i).transpose().lazyProduct(groups().col(first + i));
+  const Eigen::Vector4d all = shares.rowwise().sum();
+  const Eigen::VectorXd attentive =
+      sum_of(table_->attentive().middleCols(first, n), shares.row(3).transpose());
+  const auto n_levels = static_cast<Eigen::Index>(table_->space().levels.size());
+  Outcomes sums{all.sum(), attentive.reshaped(n_levels, attentive.size() / n_levels)};
+  sums.others.rowwise() += all.segment(1, sums.others.cols()).transpose().array();
   return sums;
 }
 
 // The entropy after a trial is the entropy before, minus the information in its outcome: the
 // entropy of the outcome, minus its expected entropy where the parameters are known.
 Eigen::ArrayXd PosteriorGrid::joint_entropies() const {
-  Eigen::ArrayXd expected = posterior_.entropy() - outcomes(0, weights().size()).entropy();
-  const auto n_alike = static_cast<Eigen::Index>(table_->n_alike());
-  for (std::size_t i = 0; i < weights().size(); i += table_->n_alike()) {
-    const Eigen::Map<const Eigen::VectorXd> alike(&weights()[i], n_alike);
-    if ((alike.array() == 0).all()) continue;
-    const Eigen::VectorXd of_mixes = table_->combinations() * alike;
-    for (Eigen::Index mix = 0; mix < of_mixes.size(); ++mix)
-      expected += of_mixes[mix] * table_->entropy(i, static_cast<std::size_t>(mix)).cast<double>();
-  }
-  return expected;
+  const Eigen::MatrixXd of_mixes = table_->combinations() * groups();
+  return posterior_.entropy() - outcomes(0, groups().cols()).entropy() +
+         sum_of(table_->entropies(), of_mixes.reshaped()).array();
 }
 
 Eigen::ArrayXd PosteriorGrid::marginal_entropies() const {
-  const std::size_t n = table_->n_nuisance();
+  const Eigen::Index n = static_cast<Eigen::Index>(table_->n_nuisance()) / table_->n_alike();
   Outcomes all = outcomes(0, n);
   Eigen::ArrayXd expected = all.entropy();
-  for (std::size_t i = n; i < weights().size(); i += n) {
+  for (Eigen::Index i = n; i < groups().cols(); i += n) {
     const Outcomes some = outcomes(i, n);
     if (some.total == 0) continue;
     expected += some.entropy();

@@ -50,19 +50,19 @@ class LikelihoodTable {
   }
 
   /// As many successive points differ in guesses and lapses only.
-  std::size_t n_alike() const { return n_alike_; }
-  /// By level.
-  using Row = Eigen::Map<const Eigen::ArrayXf>;
-  /// Probabilities of an outcome of an attentive trial at a point; not of the first outcome.
-  Row attentive(std::size_t i, std::size_t outcome) const {
-    return row(attentive_, i / n_alike_ * (space_.model.n_outcomes() - 1) + outcome - 1);
+  Eigen::Index n_alike() const { return n_alike_; }
+  /// Of points that are alike, a row each: the shares of the three outcomes of inattentive trials,
+  /// and of attentive trials. @param group of points that are alike
+  auto mixes(Eigen::Index group) const {
+    return mixes_.middleRows(group * n_alike_ % mixes_.rows(), n_alike_);
   }
-  const OutcomeShares& inattentive(std::size_t i) const { return inattentive_[i]; }
-  /// Entropies of the outcome in nats, by level, of points with one of a few mixes of guesses and
-  /// lapses. Without nuisance parameters only. @param i of the first of points that are alike
-  Row entropy(std::size_t i, std::size_t mix) const {
-    return row(entropies_, i / n_alike_ * static_cast<std::size_t>(combinations_.rows()) + mix);
-  }
+  /// Probabilities of the outcomes of attentive trials, but the first: a column for each group of
+  /// points that are alike, in it the levels of one outcome after the other.
+  const Eigen::MatrixXf& attentive() const { return attentive_; }
+  /// Entropies of the outcome in nats of points with a few mixes of guesses and lapses: a row for
+  /// each level, a column for each mix of the first group, then of the others. Without nuisance
+  /// parameters only.
+  const Eigen::MatrixXf& entropies() const { return entropies_; }
   /// Points that are alike have these combinations of the mixes' entropies: a row for each mix, a
   /// column for each point.
   const Eigen::MatrixXd& combinations() const { return combinations_; }
@@ -76,17 +76,16 @@ class LikelihoodTable {
   template <typename Visit>
   void visit_attentive(const std::vector<double>& levels, const Visit& visit) const;
 
-  Row row(const std::vector<float>& table, std::size_t i) const {
-    return {&table[i * space_.levels.size()], static_cast<Eigen::Index>(space_.levels.size())};
-  }
   void order_points();
-  std::vector<std::size_t> choose_mixes();
+  void put_mixes();
+  std::vector<Eigen::Index> choose_mixes();
 
   GridSpace space_;
-  std::size_t n_points_, n_nuisance_ = 1, n_alike_ = 1;
+  std::size_t n_points_, n_nuisance_ = 1;
+  Eigen::Index n_alike_ = 1;
   std::array<std::size_t, 4> stride_{};
-  std::vector<float> attentive_, entropies_;
-  std::vector<OutcomeShares> inattentive_;
+  Eigen::Matrix<double, Eigen::Dynamic, 4> mixes_;  // of the first group, if all have the same
+  Eigen::MatrixXf attentive_, entropies_;
   Eigen::MatrixXd combinations_;
   mutable std::mutex kept_mutex_;
   mutable std::map<std::pair<double, std::array<bool, 3>>,
@@ -116,8 +115,13 @@ class PosteriorGrid {
 
  private:
   const std::vector<double>& weights() const { return posterior_.weights(); }
+  /// A column for each group of points that are alike.
+  Eigen::Map<const Eigen::MatrixXd> groups() const {
+    return {weights().data(), table_->n_alike(),
+            static_cast<Eigen::Index>(weights().size()) / table_->n_alike()};
+  }
   struct Outcomes;
-  Outcomes outcomes(std::size_t first, std::size_t n) const;
+  Outcomes outcomes(Eigen::Index first, Eigen::Index n) const;
   Eigen::ArrayXd joint_entropies() const;
   Eigen::ArrayXd marginal_entropies() const;
 

@@ -123,9 +123,10 @@ Quest::Quest(QuestConfig config)
   const std::vector<double> positive = shares(config_, shift_to_p_threshold(config_));
   best_order_ = best_quantile_order(positive.front(), positive.back());
   for (const double p : positive) {
-    log_likelihood_[0].push_back(finite_log(1 - p));
-    log_likelihood_[1].push_back(finite_log(p));
+    log_likelihood_[0].push_back(1 - p);
+    log_likelihood_[1].push_back(p);
   }
+  for (auto& log_likelihood : log_likelihood_) take_finite_log(log_likelihood);
   first_level_ = next_level_ = config_.start ? *config_.start : placed();
 }
 

@@ -131,10 +131,7 @@ TEST(LeastEntropy, AFewMixesOfGuessesAndLapsesGiveTheEntropiesOfAll) {
   space.parameters = {{{0}, {1}, test::spaced(0, 0.5, 21).values, test::spaced(0, 0.2, 50).values}};
   const LikelihoodTable table(space);
   EXPECT_LT(table.combinations().rows(), 40);
-  Eigen::MatrixXd of_mixes(6, table.combinations().rows());
-  for (Eigen::Index mix = 0; mix < of_mixes.cols(); ++mix)
-    of_mixes.col(mix) = table.entropy(0, static_cast<std::size_t>(mix)).cast<double>();
-  const Eigen::MatrixXd all = of_mixes * table.combinations();
+  const Eigen::MatrixXd all = table.entropies().cast<double>() * table.combinations();
   for (std::size_t i = 0; i < table.n_points(); ++i)
     for (std::size_t x = 0; x < space.levels.size(); ++x) {
       const double lapse = table.point(i)[3], guess = table.point(i)[2];
@@ -271,13 +268,13 @@ TEST(LikelihoodTable, GivesTheSameWhetherItKeptItOrNot) {
 }
 
 TEST(LikelihoodTable, HasOneRowForAllGuessesAndLapses) {
-  EXPECT_EQ(LikelihoodTable(test::heavier_at_200g(40).space()).n_alike(), 2U);
+  EXPECT_EQ(LikelihoodTable(test::heavier_at_200g(40).space()).n_alike(), 2);
   PsiConfig config = test::detection_of_grams<PsiConfig>(40);
   config.guess = {{0, 0.02}};
   config.lapse = {{0, 0.02, 0.04}};
-  EXPECT_EQ(LikelihoodTable(config.space()).n_alike(), 6U);
+  EXPECT_EQ(LikelihoodTable(config.space()).n_alike(), 6);
   config.nuisance = {"lapse"};
-  EXPECT_EQ(LikelihoodTable(config.space()).n_alike(), 3U);
+  EXPECT_EQ(LikelihoodTable(config.space()).n_alike(), 3);
 }
 
 TEST(LikelihoodTable, KeepsNoMoreThanItsMemoryAllows) {
