@@ -25,6 +25,7 @@ trials = { C2 = 1 }
 kind = "comparison"
 name = "comparison"
 condition = "C2"
+practice = { trials = 2, feedback = true }
 [[block.staircase]]
 name = "200g"
 kind = "constant"
@@ -62,9 +63,10 @@ class WholeSessions(unittest.TestCase):
         person.read_on()
         person.push(1)
         person.sort([2, 0, 1])
-        person.read_on()
-        for n in range(3):
-            person.choose(n)
+        for choices in ([2, 1], [0, 1, 2]):  # practice, then what counts
+            person.read_on()
+            for n in choices:
+                person.choose(n)
         person.finish()
         _, talk = program.communicate(timeout=60)
         self.assertEqual(program.returncode, 0, talk)
@@ -75,8 +77,10 @@ class WholeSessions(unittest.TestCase):
         self.assertEqual(
             query(self.db, "select action, slot, label from answer order by answer_id"),
             [("label", slot, LABELS[label]) for slot, label in ((1, 2), (2, 0), (3, 1))]
-            + [("validate", None, None), ("select", 1, None), ("select", 2, None),
-               ("no_difference", None, None)])
+            + [("validate", None, None), ("no_difference", None, None), ("select", 2, None),
+               ("select", 1, None), ("select", 2, None), ("no_difference", None, None)])
+        self.assertEqual(query(self.db, "select is_practice, count(*) from trial group by 1"),
+                         [(0, 4), (1, 2)])
         self.assertGreater(query(self.db, "select n_pushes from cube join trial using (trial_id) "
                                           "where task = 'sorting' and slot = 2")[0][0], 0)
         self.heft("replay")
