@@ -92,7 +92,8 @@ void draw_faults(const std::vector<FaultPoint>& points, const StudyOptions& opti
       "after four that tell the camera's tone curve; of a moving effector the third and fourth of "
       "a film. Above: in how many the effector was found, and dotted, heft's median quality. "
       "Below: error of the tip where it was, 95th percentile; under a rolling shutter at the time "
-      "at which the effector's own row was read, for AprilTag too. {}",
+      "at which the effector's own row was read, for AprilTag too. Repeated and dropped pictures: "
+      "under a rolling shutter of 25 ms. {}",
       points.empty() ? 0 : points.front().ours.n, points.empty() ? 0 : points.back().ours.n,
       provenance(options));
   std::string script =

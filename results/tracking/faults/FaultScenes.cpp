@@ -74,18 +74,17 @@ std::vector<Fault> faults() {
               s.settings.optics.flicker = share;
               roll(s, 0.025, 0);
             }),
-      fault("repeated", "repeated pictures (share), rolling shutter 25 ms, 0.25 m/s", {0, 0.2, 0.4},
+      fault("repeated", "repeated pictures (share), 0.25 m/s", {0, 0.2, 0.4},
             [](S& s, double share) {
               s.settings.optics.repeated = share;
               roll(s, 0.025, 0.25);
             }),
-      fault("dropped", "dropped pictures (share), rolling shutter 25 ms, 0.25 m/s", {0, 0.2, 0.4},
+      fault("dropped", "dropped pictures (share), 0.25 m/s", {0, 0.2, 0.4},
             [](S& s, double share) {
               s.settings.optics.dropped = share;
               roll(s, 0.025, 0.25);
             }),
-      fault("untimed_drops", "dropped pictures without times (share), 25 ms, 0.25 m/s",
-            {0, 0.2, 0.4},
+      fault("untimed_drops", "dropped without times (share), 0.25 m/s", {0, 0.2, 0.4},
             [](S& s, double share) {
               s.settings.optics.dropped = share;
               s.has_times = false;
