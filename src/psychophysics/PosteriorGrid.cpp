@@ -161,7 +161,6 @@ void LikelihoodTable::visit_attentive(const std::vector<double>& levels, const V
 
 std::shared_ptr<const std::vector<double>> LikelihoodTable::log_likelihood(
     double level, const Response& response) const {
-  constexpr std::size_t most_points = 20'000;   // with more it is computed as fast as it is read
   constexpr std::size_t most_kept = 4'000'000;  // numbers: 32 MB
   const auto outcomes = space_.model.outcomes_of(response);
   {
