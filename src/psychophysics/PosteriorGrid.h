@@ -117,8 +117,7 @@ class PosteriorGrid {
   const std::vector<double>& weights() const { return posterior_.weights(); }
   /// A column for each group of points that are alike.
   Eigen::Map<const Eigen::MatrixXd> groups() const {
-    return {weights().data(), table_->n_alike(),
-            static_cast<Eigen::Index>(weights().size()) / table_->n_alike()};
+    return {weights().data(), table_->n_alike(), table_->attentive().cols()};
   }
   struct Outcomes;
   Outcomes outcomes(Eigen::Index first, Eigen::Index n) const;

@@ -89,8 +89,8 @@ void draw_faults(const std::vector<FaultPoint>& points, const StudyOptions& opti
   const std::string caption = fmt::format(
       "One fault at a time, everything else as usual: camera at 0.45 m, noise SD 3, 4 ms exposure, "
       "effector held in a hand. {} pictures a point at 640x480, {} at 1280x720, each on its own, "
-      "after four that tell the camera's tone curve; of a moving effector the third and fourth of "
-      "a film. Above: in how many the effector was found, and dotted, heft's median quality. "
+      "after four from which the tone curve is learned; of a moving effector the third and fourth "
+      "of a film. Above: in how many the effector was found, and dotted, heft's median quality. "
       "Below: error of the tip where it was, 95th percentile; under a rolling shutter at the time "
       "at which the effector's own row was read, for AprilTag too. Repeated and dropped pictures: "
       "under a rolling shutter of 25 ms. {}",

@@ -10,8 +10,8 @@ namespace heft {
 
 namespace {
 constexpr std::uint64_t seed = 12;
-// The first pictures tell the camera's tone curve and are not counted; of a moving effector none
-// is that has not been seen before.
+// The camera's tone curve is learned from the first pictures, which are not counted. Of a moving
+// effector, only pictures after some others count.
 constexpr int unmeasured = 4, run_up = 2, measured_in_motion = 2;
 constexpr int n_measured = 200;           // pictures a point
 constexpr double between_takes_s = 0.37;  // no multiple of what changes over time
