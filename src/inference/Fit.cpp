@@ -105,13 +105,13 @@ LogShare log_share(double n, double p) {
 }
 
 std::string why_no_threshold(const SensitivityRange& range, const LevelReach& reach) {
-  const auto& [low, high, separated] = range;
+  const auto& [low, high] = range;
   if (range.flat())
     return "flat likelihood: nearly all answers are the same, so that any sensitivity fits; a "
            "criterion lies beyond all levels shown";
-  if (separated)
-    return "complete separation: the answers change between neighboring levels, so that any large "
-           "sensitivity fits within 95 %; show levels in between";
+  if (range.separated())
+    return "separation: the answers change almost only between neighboring levels, so that any "
+           "large sensitivity fits within 95 %; show levels in between";
   if (high && *high < 0) return "negative sensitivity: larger levels were answered as smaller";
   if (!low || *low <= 0) return "no reliable sensitivity: its 95 % interval contains 0";
   if (z_75 / *low > 2 * reach.level_g)

@@ -101,9 +101,10 @@ LevelReach reach_of(const AnswersByLevel& answers);
 /// A sensitivity's 95 % interval, per gram; an end at infinity is none.
 struct SensitivityRange {
   std::optional<double> low{}, high{};
-  bool separated = false;  ///< any that is large enough fits within 95 %
 
-  bool flat() const { return !low && !high && !separated; }  ///< none is ruled out
+  bool flat() const { return !low && !high; }  ///< none is ruled out
+  /// Any that is large enough fits within 95 %, and none below 0.
+  bool separated() const { return !high && low.value_or(0) > 0; }
 };
 
 /// Why a sensitivity gives no threshold, as heft fit and the report say it; empty: it gives one.

@@ -314,8 +314,7 @@ Fit fit_indecision(const AnswersByLevel& answers, const FitOptions& options) {
     fit.parameters.push_back(parameter(indecision_names[i], found.parameters[i],
                                        i == sensitivity ? unit : 1, bounds[i].fixed()));
   const FittedParameter& s = fit.parameters[sensitivity];
-  if (fit.why.empty())
-    fit.why = why_no_threshold({s.low, s.high, !s.value && s.low}, reach_of(answers));
+  if (fit.why.empty()) fit.why = why_no_threshold({s.low, s.high}, reach_of(answers));
   fit.parameters.push_back(fit.identifiable() ? threshold(s) : FittedParameter{"threshold_75_g"});
   return fit;
 }
@@ -392,7 +391,7 @@ Fit fit_same_different(const AnswersByLevel& answers, double lapse) {
   // The likelihood is even in the sensitivity: at 0 it has no slope, and this decides.
   if (found.log_likelihood - log_likelihood_without_sensitivity(answers, lapse) < interval_drop)
     s.low = 0;
-  fit.why = why_no_threshold({s.low, s.high, !s.value && s.low}, reach_of(answers));
+  fit.why = why_no_threshold({s.low, s.high}, reach_of(answers));
   if (fit.identifiable()) fit.parameters[3] = threshold(s);
   return fit;
 }

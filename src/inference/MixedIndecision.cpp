@@ -165,7 +165,7 @@ SensitivityRange range_of(const PopulationLikelihood::ProfileInterval& logs,
   const auto per_g = [largest_g](const std::optional<double>& log_sensitivity) {
     return log_sensitivity ? std::optional(std::exp(*log_sensitivity) / largest_g) : std::nullopt;
   };
-  if (logs.low || !logs.high) return {per_g(logs.low), per_g(logs.high), logs.low && !logs.high};
+  if (logs.low || !logs.high) return {per_g(logs.low), per_g(logs.high)};
   PopulationLikelihood mirrored(on_scale(people, largest_g, true));
   const Maximum down = mirrored.maximum();
   if (mirrored.excludes_no_sensitivity(down))
@@ -299,9 +299,7 @@ OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* 
     return {threshold.value, Interval{threshold.low.value_or(0), *threshold.high}, ""};
   }
   std::string why = too_little_chosen(answers);
-  const bool separated = !own->high && own->low.value_or(0) > 0;
-  if (why.empty())
-    why = why_no_threshold({own->low, own->high, separated}, {largest_level_of(answers)});
+  if (why.empty()) why = why_no_threshold({own->low, own->high}, {largest_level_of(answers)});
   if (!why.empty()) return {{}, {}, why};
   return {z_75 / own->value, Interval{z_75 / *own->high, z_75 / *own->low}, ""};
 }

@@ -210,9 +210,8 @@ std::string no_slope(double gained, const std::vector<ParameterBounds>& bounds) 
 std::string no_end(const LikelihoodFit& fit, double step) {
   const LikelihoodParameter& at = fit.parameters[place];
   if (step > fit.log_likelihood - same_log_likelihood)
-    return "complete separation: a step at or between levels fits as well as any slope; show "
-           "levels "
-           "in between";
+    return "separation: a step at or between levels fits as well as any slope; show levels in "
+           "between";
   if (std::abs(at.value) > reach) return "the threshold is far outside the levels shown";
   if (!at.low || !at.high || *at.low < -reach || *at.high > reach)
     return "the threshold's 95 % interval reaches beyond the levels shown by more than their range";

@@ -136,6 +136,22 @@ TEST(IndecisionFit, ACoinHasNoThreshold) {
   EXPECT_LE(n, 15);
 }
 
+// Few trials often leave the sensitivity without an upper bound, though the best one is finite.
+TEST(IndecisionFit, AThresholdHasAnIntervalAboveZero) {
+  RandomStream random(11, "few trials");
+  int n_unbounded = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Fit fit =
+        fit_indecision(choices_of({0.02, 0.5, 0, 0.02}, compared_g, 3, random), {{}, 0, 0.02});
+    const FittedParameter& sensitivity = fit.parameter("sensitivity");
+    EXPECT_TRUE(!fit.identifiable() || fit.parameter("threshold_75_g").low.value_or(0) > 0);
+    if (!sensitivity.value || sensitivity.high || sensitivity.low.value_or(0) <= 0) continue;
+    n_unbounded += 1;
+    EXPECT_THAT(fit.why, HasSubstr("any large sensitivity fits within 95 %"));
+  }
+  EXPECT_GT(n_unbounded, 5);
+}
+
 std::string why_not(const AnswersByLevel& answers, const FitOptions& options = {}) {
   const Fit fit = fit_psychometric(answers, options);
   EXPECT_EQ(fit.parameter("threshold").value, std::nullopt);

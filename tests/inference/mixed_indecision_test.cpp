@@ -127,12 +127,11 @@ TEST(NoThreshold, WhereTheLevelsPartTheAnswers) {
       people["P" + std::to_string(i)][level_g][level_g > 320 ? 2 : 1] = 5;
       people["P" + std::to_string(i)][-level_g][level_g > 320 ? 0 : 1] = 5;
     }
-  EXPECT_THAT(fit_mixed_indecision(people).why, StartsWith("complete separation"));
-  for (const OwnThreshold& own : own_of(people))
-    EXPECT_THAT(own.why, StartsWith("complete separation"));
+  EXPECT_THAT(fit_mixed_indecision(people).why, StartsWith("separation"));
+  for (const OwnThreshold& own : own_of(people)) EXPECT_THAT(own.why, StartsWith("separation"));
   people.erase(std::next(people.begin()), people.end());
-  EXPECT_THAT(fit_mixed_indecision(people).why, StartsWith("complete separation"));
-  EXPECT_THAT(own_of(people).at(0).why, StartsWith("complete separation"));
+  EXPECT_THAT(fit_mixed_indecision(people).why, StartsWith("separation"));
+  EXPECT_THAT(own_of(people).at(0).why, StartsWith("separation"));
 }
 
 TEST(NoThreshold, WhereAnswersGoAgainstTheLevel) {
