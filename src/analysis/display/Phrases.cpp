@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <span>
 
 namespace heft {
@@ -56,6 +57,10 @@ std::string titled(std::string_view title, const std::string& data, const Summar
 std::string marked(const std::string& data, const Summary& summary) {
   if (summary.integrity.is_verified) return data;
   return data + (data.empty() ? "" : ", ") + "NOT VERIFIED";
+}
+
+std::string in_digits(double value) {
+  return std::abs(value) >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
 
 std::string some_of(const std::vector<std::string>& names, std::size_t most) {

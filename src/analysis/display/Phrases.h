@@ -20,6 +20,9 @@ std::string marked(const std::string& data, const Summary& summary);
 /// That figures are of simulated responders; empty: they are not.
 std::string simulated_note(const Summary& summary);
 
+/// Three significant digits, without an exponent: "0.0123", "1.04", "1560".
+std::string in_digits(double value);
+
 /// "1, 2, 3 and 40 more"
 std::string some_of(const std::vector<std::string>& names, std::size_t most = 8);
 

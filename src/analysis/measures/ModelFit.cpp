@@ -11,8 +11,8 @@ namespace heft {
 namespace {
 constexpr Measure predictive_p{
     "predictive_p", "", "p",
-    "share of studies predicted by the indecision model in which a figure is as far from its mean, "
-    "in SDs, as the farthest one that was seen"};
+    "share of studies predicted by the indecision model in which a figure, at any reference and in "
+    "any condition, is as far from its mean, in SDs, as the farthest one that was seen here"};
 constexpr Measure seen{"seen_figure", "", "seen", "a figure of the study"};
 constexpr Measure predicted{
     "predicted_figure", "", "predicted",
@@ -64,7 +64,8 @@ void put_bands(Estimates& all, const ReferenceSensitivity& row, const Bins& bins
   }
 }
 
-void put_figures(Estimates& all, const ReferenceSensitivity& row, const PredictiveCheck& check) {
+void put_figures(Estimates& all, const ReferenceSensitivity& row, const PredictiveCheck& check,
+                 double joint_p) {
   for (const PredictedFigure& figure : check.figures) {
     StudyEstimate& is = all.emplace_back(estimate_at(seen, row));
     is.by = {{"figure", figure.name}};
@@ -76,21 +77,47 @@ void put_figures(Estimates& all, const ReferenceSensitivity& row, const Predicti
   }
   StudyEstimate& p = all.emplace_back(estimate_at(predictive_p, row));
   p.by = {{"figure", check.farthest().name}};
-  p.value = check.p;
+  p.value = joint_p;
+  p.n_trials = static_cast<int>(check.farthest_of_studies.size());
+}
+
+bool is_missed(const StudyEstimate& check) {
+  return *check.value < 0.05;
+}
+
+// "mean level of reversals (g) at 200 g in C2 is 80.1, predicted 91 to 120"
+std::string miss_in_words(const Estimates& all, const StudyEstimate& check) {
+  const std::string reference = check.text_at("reference_g");
+  const auto at_figure = [&](const Measure& measure) {
+    return find_estimate(all, measure.name,
+                         {{"reference_g", reference},
+                          {"condition", check.condition},
+                          {"figure", check.at("figure")->text}});
+  };
+  const StudyEstimate& model = *at_figure(predicted);
+  return fmt::format("{} at {} g in {} is {}, predicted {} to {}", check.at("figure")->text,
+                     reference, check.condition, in_digits(*at_figure(seen)->value),
+                     in_digits(*model.low), in_digits(*model.high));
 }
 }  // namespace
 
 void put_model_fit(Estimates& all, std::span<const ReferenceSensitivity> rows,
                    const ComparisonTrials& trials, StaircaseRuns& runs) {
+  std::vector<const ReferenceSensitivity*> checked;
+  std::vector<PredictiveCheck> checks;
   for (const ReferenceSensitivity& row : rows) {
     const std::vector<PersonRuns> people = runs.take(row.compared);
     if (!row.is_of_people() || people.empty()) continue;
     const Bins bins = binned(pointers_to(trials.by_compared().at(row.compared)));
-    const PredictiveCheck check = check_predictions(row.fit, people, edges_between(bins));
+    PredictiveCheck check =
+        check_predictions(row.fit, people, edges_between(bins), 1 + checks.size());
     if (check.figures.empty()) continue;
     put_bands(all, row, bins, check);
-    put_figures(all, row, check);
+    checked.push_back(&row);
+    checks.push_back(std::move(check));
   }
+  const std::vector<double> ps = joint_p(checks);
+  for (std::size_t i = 0; i < checks.size(); ++i) put_figures(all, *checked[i], checks[i], ps[i]);
 }
 
 EstimateTable model_fit_table() {
@@ -99,15 +126,17 @@ EstimateTable model_fit_table() {
       "Does the indecision model predict what was seen?",
       {key_column("reference_g", "reference g"), key_column("condition", "condition"),
        column(predictive_p, Field::value, "p", "p", 3),
+       column(predictive_p, Field::n_trials, "n_studies", "studies"),
        key_column("figure", "farthest from what is predicted"),
        column(seen, Field::value, "seen", "seen", 2),
        column(predicted, Field::low, "predicted_low", "predicted from", 2),
        column(predicted, Field::high, "predicted_high", "to", 2)},
       "people drawn from the fitted model run each participant's staircases from the first trial "
       "on, in 500 studies (100 to 500 with more than 200 people, 100 of Bayesian procedures). p: "
-      "the share of these studies in "
-      "which a figure is as far from its mean, in SDs, as the farthest one here. Below .05, "
-      "divided by the number of rows, the model does not hold. All figures: predictive_checks."};
+      "the share of these studies in which a figure of any row is as far from its mean, in SDs, as "
+      "the farthest one here. Below .05, the model does not hold. All figures: predictive_checks.",
+      TablePlace::results,
+      "model_fit[]"};
 }
 
 EstimateTable predictive_checks_table() {
@@ -122,35 +151,22 @@ EstimateTable predictive_checks_table() {
           TablePlace::csv};
 }
 
-std::string misfit_sentence(const Estimates& all) {
+std::string model_fit_sentence(const Estimates& all) {
   const auto checks = estimates_of(all, predictive_p.name);
+  if (checks.empty()) return "";
   std::vector<std::string> missed;
-  for (const StudyEstimate* check : checks) {
-    if (*check->value * static_cast<double>(checks.size()) >= 0.05) continue;
-    const std::string reference = check->text_at("reference_g");
-    const auto at_figure = [&](const Measure& measure) {
-      return find_estimate(all, measure.name,
-                           {{"reference_g", reference},
-                            {"condition", check->condition},
-                            {"figure", check->at("figure")->text}});
-    };
-    const StudyEstimate& model = *at_figure(predicted);
-    missed.push_back(fmt::format("{} at {} g in {} is {:.3g}, predicted {:.3g} to {:.3g}",
-                                 check->at("figure")->text, reference, check->condition,
-                                 *at_figure(seen)->value, *model.low, *model.high));
-  }
-  if (missed.empty()) return "";
-  return fmt::format("The indecision model does not predict what was seen: {}. Doubt thresholds.",
-                     some_of(missed, 3));
-}
-
-std::string fit_sentence(const Estimates& all) {
-  const auto checks = estimates_of(all, predictive_p.name);
-  if (checks.empty() || !misfit_sentence(all).empty()) return "";
   double least_p = 1;
-  for (const StudyEstimate* check : checks) least_p = std::min(least_p, *check->value);
-  return fmt::format("Predictive check of the indecision model: passed (smallest p = {:.2f}).",
-                     least_p);
+  for (const StudyEstimate* check : checks) {
+    least_p = std::min(least_p, *check->value);
+    if (is_missed(*check)) missed.push_back(miss_in_words(all, *check));
+  }
+  if (missed.empty())
+    return fmt::format("Predictive check of the indecision model: passed (smallest p = {:.2f}).",
+                       least_p);
+  return fmt::format(
+      "Doubt these thresholds: the indecision model does not predict what was seen "
+      "(p = {:.3f}): {}.",
+      least_p, some_of(missed, 2));
 }
 
 }  // namespace heft

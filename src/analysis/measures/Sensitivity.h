@@ -42,10 +42,8 @@ void put_model_fit(Estimates& all, std::span<const ReferenceSensitivity> rows,
                    const ComparisonTrials& trials, StaircaseRuns& runs);
 EstimateTable model_fit_table();
 EstimateTable predictive_checks_table();
-/// Sentence on the predictive checks: the figures that the model misses, or that it misses none.
-/// Empty: the other one applies, or nothing was checked.
-std::string misfit_sentence(const Estimates& all);
-std::string fit_sentence(const Estimates& all);
+/// The figures that the model misses, or that it misses none. Empty: nothing was checked.
+std::string model_fit_sentence(const Estimates& all);
 
 // Weber fractions, thresholds by the mass of the reference, and the exponent of a power law between
 // the two: 0 where thresholds are equal, 1 where Weber fractions are (Weber's law). Of thresholds

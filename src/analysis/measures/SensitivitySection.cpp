@@ -267,8 +267,7 @@ class SensitivitySection final : public Section {
     if (!thresholds.empty() && found.empty())
       found.emplace_back(
           "75 %-correct discrimination threshold: not identifiable from these trials.");
-    if (const std::string fits = fit_sentence(summary.estimates); !fits.empty())
-      found.back() += " " + fits;
+    found.push_back(model_fit_sentence(summary.estimates));
     return found;
   }
 

@@ -6,7 +6,6 @@
 
 #include "analysis/display/Phrases.h"
 #include "analysis/display/Table.h"
-#include "analysis/measures/Sensitivity.h"
 #include "analysis/report/Notes.h"
 #include "analysis/report/Report.h"
 #include "analysis/report/Tables.h"
@@ -190,8 +189,7 @@ std::string incident_sentence(const Summary& summary) {
 }  // namespace
 
 std::vector<std::string> attention_sentences(const Summary& summary) {
-  std::vector<std::string> sentences{generality_sentence(summary),
-                                     misfit_sentence(summary.estimates)};
+  std::vector<std::string> sentences{generality_sentence(summary)};
   for (const std::string& note : summary.notes)
     if (note != simulated_note(summary)) sentences.push_back(note);
   for (const auto sentence :

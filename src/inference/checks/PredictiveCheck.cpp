@@ -34,10 +34,6 @@ std::vector<double> known(std::vector<double> values) {
   return values;
 }
 
-double known_mean(const std::vector<double>& values) {
-  return mean(known(values)).value_or(unknown);
-}
-
 double known_sd(const std::vector<double>& values) {
   return sample_sd(known(values)).value_or(unknown);
 }
@@ -162,7 +158,7 @@ constexpr std::array<StudyTally::OfAllLevels, 14> StudyTally::of_all_levels{{
     {"mean level of reversals (g)",
      [](const StudyTally& of) { return ratio(of.reversal_g_, of.n_reversals_); }},
     {"mean JND by the paper's rule (g)",
-     [](const StudyTally& of) { return known_mean(of.jnds_g_); }},
+     [](const StudyTally& of) { return mean(known(of.jnds_g_)).value_or(unknown); }},
     {"number of trials", [](const StudyTally& of) { return of.n_trials_; }},
     {"SD between people of their mean level (g)",
      [](const StudyTally& of) { return known_sd(of.levels_g_); }},
@@ -369,7 +365,7 @@ PredictiveCheck check_predictions(const MixedFit& fit, std::span<const PersonRun
                               band(by_level, place, &Shares::none)});
   const std::vector<double> figures = seen.figures();
   const std::vector<std::string> names = StudyTally::names(edges_g);
-  std::vector<double> farthest(predicted.size());
+  check.farthest_of_studies.resize(predicted.size());
   for (std::size_t i = 0; i < figures.size(); ++i) {
     std::vector<double> values;
     for (const auto& study : predicted) values.push_back(study[i]);
@@ -378,13 +374,26 @@ PredictiveCheck check_predictions(const MixedFit& fit, std::span<const PersonRun
     check.figures.push_back({names[i], figures[i], of.mean, of.sd, of.low, of.high});
     for (std::size_t k = 0; k < values.size(); ++k)
       if (std::isfinite(values[k]))
-        farthest[k] = std::max(farthest[k], std::abs(values[k] - of.mean) / of.sd);
+        check.farthest_of_studies[k] =
+            std::max(check.farthest_of_studies[k], std::abs(values[k] - of.mean) / of.sd);
   }
-  if (check.figures.empty()) return check;
-  const double here = std::abs(check.farthest().deviation());
-  const auto n_as_far = std::ranges::count_if(farthest, [&](double far) { return far >= here; });
-  check.p = (1 + static_cast<double>(n_as_far)) / (1 + static_cast<double>(farthest.size()));
   return check;
+}
+
+std::vector<double> joint_p(std::span<const PredictiveCheck> checks) {
+  std::vector<double> farthest;  // of all checks; as many studies as the smallest has
+  for (const PredictiveCheck& check : checks) {
+    const std::vector<double>& here = check.farthest_of_studies;
+    farthest.resize(farthest.empty() ? here.size() : std::min(farthest.size(), here.size()));
+    for (std::size_t i = 0; i < farthest.size(); ++i) farthest[i] = std::max(farthest[i], here[i]);
+  }
+  std::vector<double> all;
+  for (const PredictiveCheck& check : checks) {
+    const double seen = std::abs(check.farthest().deviation());
+    const auto n_as_far = std::ranges::count_if(farthest, [&](double far) { return far >= seen; });
+    all.push_back((1 + static_cast<double>(n_as_far)) / (1 + static_cast<double>(farthest.size())));
+  }
+  return all;
 }
 
 }  // namespace heft

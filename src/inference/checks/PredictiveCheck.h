@@ -60,12 +60,18 @@ struct PredictedShares {
 struct PredictiveCheck {
   std::vector<PredictedFigure> figures;
   std::vector<PredictedShares> by_level;  ///< between one edge and the next
-  /// Share of predicted studies in which some figure deviates as many SDs as the farthest observed
-  /// one.
-  double p = 1;
+  /// The largest deviation of a figure in each predicted study, in SDs.
+  std::vector<double> farthest_of_studies;
 
   const PredictedFigure& farthest() const;  ///< of at least one figure
 };
+
+/// By check, the share of predicted studies in which some figure of any check deviates as many SDs
+/// as the check's farthest observed one (maxT: Westfall & Young 1993). Below .05, its model does
+/// not hold: of correct models this says at most 5 % of the time that one of them does not, however
+/// many checks there are.
+/// @param checks each with a figure, and simulated with another seed
+std::vector<double> joint_p(std::span<const PredictiveCheck> checks);
 
 /// @param fit identifiable, of several people
 /// @param edges_g upper ends of ranges of levels, ascending; the last range is open

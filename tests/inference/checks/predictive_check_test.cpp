@@ -91,12 +91,17 @@ MixedFit fitted(const std::vector<PersonRuns>& people) {
 
 const std::vector<double> edges_g{40, 90, 150, 220, 320};
 
+// Of a single check.
+double p_of(const PredictiveCheck& check) {
+  return joint_p(std::span(&check, 1)).front();
+}
+
 TEST(PredictiveCheck, OfTheModelItselfHasUniformP) {
   const int studies = n_studies(40);
   int n_below_05 = 0, n_below_half = 0;
   for (int i = 0; i < studies; ++i) {
     const auto seed = static_cast<std::uint64_t>(100 + i);
-    const double p = check_predictions(fit_of_truth(), study(1, 12, seed), edges_g).p;
+    const double p = p_of(check_predictions(fit_of_truth(), study(1, 12, seed), edges_g));
     EXPECT_GT(p, 0);
     n_below_05 += p < 0.05 ? 1 : 0;
     n_below_half += p < 0.5 ? 1 : 0;
@@ -115,8 +120,8 @@ TEST(PredictiveCheck, DistinguishesAModelThatHoldsFromOthers) {
       const MixedFit fit = fitted(people);
       ASSERT_TRUE(fit.identifiable()) << fit.why;
       const PredictiveCheck check = check_predictions(fit, people, edges_g);
-      n_flagged += check.p < 0.05 ? 1 : 0;
-      std::cout << growth << ": p " << check.p << ", " << check.farthest().name << " "
+      n_flagged += p_of(check) < 0.05 ? 1 : 0;
+      std::cout << growth << ": p " << p_of(check) << ", " << check.farthest().name << " "
                 << check.farthest().deviation() << " SD\n";
     }
     std::cout << n_people << " people, criterion grows " << growth
@@ -125,6 +130,47 @@ TEST(PredictiveCheck, DistinguishesAModelThatHoldsFromOthers) {
     EXPECT_GE(n_flagged, (fewest - chance) * studies) << growth;
     EXPECT_LE(n_flagged, (most + chance) * studies) << growth;
   }
+}
+
+// A check of 100 studies whose farthest figures deviate by 0.01, 0.02 ... 1 SD.
+PredictiveCheck check_with(double seen_deviation) {
+  PredictiveCheck check;
+  check.figures.push_back({.name = "a figure", .seen = seen_deviation, .mean = 0, .sd = 1});
+  for (int i = 1; i <= 100; ++i) check.farthest_of_studies.push_back(0.01 * i);
+  return check;
+}
+
+TEST(PredictiveCheck, CanRejectOneOfManyModelsHoweverFewStudiesItHas) {
+  std::vector<PredictiveCheck> checks(30, check_with(0.5));
+  checks[7] = check_with(-8);
+  const std::vector<double> all = joint_p(checks);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    EXPECT_DOUBLE_EQ(all[i], i == 7 ? 1.0 / 101 : 52.0 / 101) << i;
+}
+
+TEST(PredictiveCheck, JudgesAllModelsByTheFarthestFigureOfAny) {
+  PredictiveCheck wide = check_with(0.5), narrow = check_with(0.5);
+  for (double& farthest : wide.farthest_of_studies) farthest *= 3;
+  const std::vector<double> all = joint_p(std::array{wide, narrow});
+  EXPECT_DOUBLE_EQ(all[0], 85.0 / 101);  // 0.03 i is 0.5 or more for i from 17 on
+  EXPECT_DOUBLE_EQ(all[1], all[0]);
+  EXPECT_TRUE(joint_p({}).empty());
+}
+
+// Three references a study: at most one study in 20 is flagged.
+TEST(PredictiveCheck, FlagsFewStudiesOfSeveralModelsThatHold) {
+  const int studies = n_studies(20);
+  int n_flagged = 0;
+  for (int i = 0; i < studies; ++i) {
+    std::vector<PredictiveCheck> checks;
+    for (std::uint64_t row = 0; row < 3; ++row)
+      checks.push_back(check_predictions(
+          fit_of_truth(), study(1, 12, 3000 + 3 * static_cast<std::uint64_t>(i) + row), edges_g,
+          1 + row));
+    n_flagged += std::ranges::min(joint_p(checks)) < 0.05 ? 1 : 0;
+  }
+  std::cout << 100.0 * n_flagged / studies << " % flagged\n";
+  EXPECT_LE(n_flagged, 0.05 * studies + 3 * std::sqrt(0.05 * studies));
 }
 
 TEST(PredictiveCheck, RunsStaircasesThatDidNotEndAsLong) {
