@@ -89,7 +89,9 @@ std::vector<HypothesisPower> hypotheses_of(const Findings& studies) {
       power.declared = one.declared;
       power.supported.add(one.verdict == HypothesisVerdict::supported);
       power.not_supported.add(one.verdict == HypothesisVerdict::not_supported);
-      power.inconclusive.add(one.verdict == HypothesisVerdict::inconclusive);
+      const bool is_tested = one.verdict != HypothesisVerdict::not_tested;
+      power.inconclusive.add(one.verdict == HypothesisVerdict::inconclusive || !is_tested);
+      power.is_tested = power.is_tested || is_tested;
     }
   std::vector<HypothesisPower> all;
   for (auto& [name, power] : by_name) {

@@ -26,6 +26,7 @@ struct HypothesisPower {
   std::string name, statement;
   bool declared = false;                         ///< by the protocol
   Tally supported, not_supported, inconclusive;  ///< of all studies
+  bool is_tested = false;                        ///< in some study; otherwise inconclusive in all
   /// Clopper and Pearson's interval of the share that supported it, as fractions.
   Interval interval;
 };

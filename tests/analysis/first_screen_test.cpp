@@ -7,6 +7,7 @@
 #include "analysis/Analysis.h"
 #include "analysis/report/Notes.h"
 #include "analysis/report/Report.h"
+#include "analysis/report/Tables.h"
 
 namespace heft {
 namespace {
@@ -88,6 +89,30 @@ TEST(FirstScreen, NamesExcludedParticipants) {
   left_out.exclusion.anticipatory_responses = 0;
   EXPECT_THAT(unwrapped(screen_of({kept, left_out})),
               HasSubstr("Excluded from all figures by the rules of the protocol: b"));
+}
+
+TEST(FirstScreen, OfParticipantsWhoAreAllExcludedSaysWhyNothingIsTested) {
+  SessionData data = session(1, "a");
+  data.plan.emplace().tested = {true, false, false, false, false};
+  add_sorting(data, "C1", "correct");
+  data.exclusion.anticipatory_responses = 0;
+  const Summary summary = summarize({"x.db", {data}}, "");
+  EXPECT_THAT(unwrapped(first_screen(summary, {})),
+              HasSubstr("1 session of 1 participant, 0 of them in the figures, in x.db"));
+  EXPECT_EQ(inconclusive_sentence(summary),
+            "Declared but not tested, because no participant is left: E1-H1.");
+  EXPECT_EQ(summary.hypotheses.front().why, "no participant is left after exclusions");
+}
+
+TEST(FirstScreen, HasNothingThatTheTablesLeaveOut) {
+  SessionData data = session(1, "a");
+  data.session.state = SessionState::aborted;
+  add_sorting(data, "C1", "correct").trial.lost_s = 2.5;
+  const Summary summary = summarize({"x.db", {data}}, "");
+  const std::string tables = unwrapped(readable(summary));
+  ASSERT_FALSE(attention_sentences(summary).empty());
+  for (const std::string& sentence : attention_sentences(summary))
+    EXPECT_THAT(tables, HasSubstr("- " + sentence));
 }
 
 TEST(FirstScreen, OfNothingNamesTheLog) {

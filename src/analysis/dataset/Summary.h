@@ -28,11 +28,11 @@ struct SessionSummary {
   PictureCounts pictures = {};
 };
 
-enum class HypothesisVerdict { supported, not_supported, inconclusive };
+enum class HypothesisVerdict { supported, not_supported, inconclusive, not_tested };
 template <>
 struct EnumNames<HypothesisVerdict> {
-  static constexpr std::array<std::string_view, 3> names{"supported", "not supported",
-                                                         "inconclusive"};
+  static constexpr std::array<std::string_view, 4> names{"supported", "not supported",
+                                                         "inconclusive", "not tested"};
 };
 
 /// One of the paper's hypotheses, with the verdict of these data and the figures behind it. It is
@@ -41,7 +41,7 @@ struct Hypothesis {
   std::string name;  ///< "E1-H1"
   std::string statement;
   bool declared = false;  ///< by the protocols of all sessions; otherwise it is exploratory
-  HypothesisVerdict verdict = HypothesisVerdict::inconclusive;
+  HypothesisVerdict verdict = HypothesisVerdict::not_tested;
   std::string why;                   ///< reason for the verdict
   std::vector<std::string> figures;  ///< a sentence each
   std::string condition{};           ///< condition of this log that is the paper's; empty: none

@@ -239,9 +239,11 @@ Judgment judge_proportional(const Summary& summary) {
   return {HypothesisVerdict::inconclusive, figures + ": the interval is too wide"};
 }
 
-Judgment not_run(std::string_view what) {
+Judgment not_run(const Summary& summary, std::string_view what) {
+  if (summary.n_participants == 0)
+    return {HypothesisVerdict::not_tested, "no participant is left after exclusions"};
   return {
-      HypothesisVerdict::inconclusive,
+      HypothesisVerdict::not_tested,
       fmt::format("no completed {} the paper's masses and technique, by law and parameters", what)};
 }
 
@@ -286,7 +288,7 @@ struct PaperSorting {
 Hypothesis judged_of_control(const Summary& summary) {
   const PaperSorting control(summary, published::sorting_coupled);
   const std::string& name = control.condition;
-  if (name.empty()) return judged(0, not_run("sorting of"), {}, "");
+  if (name.empty()) return judged(0, not_run(summary, "sorting of"), {}, "");
   return judged(
       0,
       judge_blind(control.estimate("sorting_equivalence", "answered", "correct"), control.chance,
@@ -300,7 +302,7 @@ Hypothesis judged_of_control(const Summary& summary) {
 Hypothesis judged_of_technique(const Summary& summary) {
   const PaperSorting technique(summary, published::sorting_decoupled);
   const std::string& name = technique.condition;
-  if (name.empty()) return judged(1, not_run("sorting of"), {}, "");
+  if (name.empty()) return judged(1, not_run(summary, "sorting of"), {}, "");
   const StudyEstimate& correct = technique.share("all", "correct");
   return judged(
       1, judge_above_chance(correct, technique.chance),
@@ -310,7 +312,8 @@ Hypothesis judged_of_technique(const Summary& summary) {
 
 Hypothesis judged_of_introduction(const Summary& summary) {
   const StudyEstimate* first_try = find_estimate(summary.estimates, "introduction_first_try");
-  if (!first_try || !first_try->published) return judged(2, not_run("introduction with"), {}, "");
+  if (!first_try || !first_try->published)
+    return judged(2, not_run(summary, "introduction with"), {}, "");
   return judged(2, judge_first_try(*first_try), {first_try_figure(*first_try)},
                 first_try->condition);
 }
@@ -318,8 +321,8 @@ Hypothesis judged_of_introduction(const Summary& summary) {
 std::vector<Hypothesis> judged_of_jnds(const Summary& summary) {
   const auto thresholds = papers(summary, "threshold_75");
   if (thresholds.empty())
-    return {judged(3, not_run("comparison with"), {}, ""),
-            judged(4, not_run("comparison with"), {}, "")};
+    return {judged(3, not_run(summary, "comparison with"), {}, ""),
+            judged(4, not_run(summary, "comparison with"), {}, "")};
   const std::string& condition = thresholds.front()->condition;
   return {judged(3, judge_rising(summary), jnd_figures(summary), condition),
           judged(4, judge_proportional(summary), ratio_figures(summary), condition)};

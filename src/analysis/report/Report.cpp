@@ -117,7 +117,7 @@ td.n { text-align: right; font-variant-numeric: tabular-nums; }
 .note, .made { color: #666; font-size: 0.85rem; }
 .unverified { background: #fbdcdc; border: 2px solid #b00020; padding: 0.2rem 0.8rem;
        position: sticky; top: 0; }
-.simulated { background: #fff3d6; border-left: 4px solid #d79b00; padding: 0.4rem 0.8rem; }
+.attention { background: #fff3d6; border-left: 4px solid #d79b00; padding: 0.4rem 0.8rem 0.4rem 2rem; }
 svg { max-width: 100%; height: auto; }
 .first { border: 1px solid #bbb; padding: 0.2rem 1.2rem; font-size: 1.1rem; }
 .answer b { font-size: 1.3rem; display: block; }
@@ -171,7 +171,10 @@ std::string figure_html(const DrawnChart& drawn, int number) {
   std::string html =
       fmt::format("<figure id=\"{}\">\n{}\n<figcaption><b>Figure {}.</b> {}", chart.name,
                   svg_element(drawn.svg), number, html_escaped(chart.caption));
-  if (chart.n > 0) html += fmt::format(" n = {}.", chart.n);
+  if (chart.least_n > 0 && chart.least_n < chart.n)
+    html += fmt::format(" n = {} to {}.", chart.least_n, chart.n);
+  else if (chart.n > 0)
+    html += fmt::format(" n = {}.", chart.n);
   if (!chart.csv.empty())
     html += fmt::format(" Figures: <a href=\"{0}\">{0}</a>.", html_escaped(chart.csv));
   return html + "</figcaption>\n</figure>\n";
@@ -218,10 +221,12 @@ std::string head_html(const Summary& summary) {
   for (const std::string& sentence : leading_sentences(summary))
     html += fmt::format("<p>{}</p>\n", html_escaped(sentence));
   html += "</div>\n";
-  for (const std::string& note : summary.notes)
-    html += fmt::format("<p class=\"{}\">{}</p>\n", summary.simulated() ? "simulated" : "note",
-                        html_escaped(note));
-  return html;
+  const std::vector<std::string> attention = attention_sentences(summary);
+  if (attention.empty()) return html;
+  html += "<h2 id=\"attention\">Attention</h2>\n<ul class=\"attention\">\n";
+  for (const std::string& sentence : attention)
+    html += fmt::format("<li>{}</li>\n", html_escaped(sentence));
+  return html + "</ul>\n";
 }
 
 struct ReportSection {

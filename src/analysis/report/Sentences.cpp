@@ -26,17 +26,20 @@ std::string limits_sentence(const Summary& summary) {
 std::string inconclusive_sentence(const Summary& summary) {
   std::vector<std::string> open, untested;
   for (const Hypothesis& hypothesis : summary.hypotheses)
-    if (hypothesis.verdict == HypothesisVerdict::inconclusive && hypothesis.applies())
-      (hypothesis.condition.empty() ? untested : open).push_back(hypothesis.name);
-  const auto named = [](const std::vector<std::string>& names) {
-    return fmt::format("hypothes{} {}", names.size() == 1 ? "is" : "es", fmt::join(names, ", "));
-  };
+    if (hypothesis.applies()) {
+      if (hypothesis.verdict == HypothesisVerdict::inconclusive) open.push_back(hypothesis.name);
+      if (hypothesis.verdict == HypothesisVerdict::not_tested) untested.push_back(hypothesis.name);
+    }
   std::string text;
-  if (!open.empty()) text = fmt::format("Inconclusive: {} of the paper.", named(open));
+  if (!open.empty())
+    text = fmt::format("Inconclusive: hypothes{} {} of the paper.", open.size() == 1 ? "is" : "es",
+                       fmt::join(open, ", "));
   if (!untested.empty())
-    text += fmt::format(
-        "{}Declared but not tested, without trials of the paper's masses and technique: {}.",
-        text.empty() ? "" : " ", named(untested));
+    text += fmt::format("{}Declared but not tested, {}: {}.", text.empty() ? "" : " ",
+                        summary.n_participants == 0
+                            ? "because no participant is left"
+                            : "without trials of the paper's masses and technique",
+                        fmt::join(untested, ", "));
   return text;
 }
 
@@ -50,7 +53,6 @@ std::vector<std::string> findings_of(const Summary& summary) {
 
 std::vector<std::string> leading_sentences(const Summary& summary) {
   std::vector<std::string> sentences = findings_of(summary);
-  sentences.push_back(inconclusive_sentence(summary));
   sentences.push_back(limits_sentence(summary));
   std::erase(sentences, "");
   return sentences;

@@ -7,6 +7,7 @@
 #include "analysis/display/Phrases.h"
 #include "analysis/measures/Section.h"
 #include "analysis/report/Notes.h"
+#include "analysis/report/Report.h"
 #include "base/Names.h"
 
 namespace heft {
@@ -22,6 +23,16 @@ std::string absences(const Summary& summary) {
   return compared && !find_estimate(summary.estimates, "jnd")
              ? "JND: no staircases that estimate one.\n"
              : "";
+}
+
+std::string attention_text(const Summary& summary) {
+  std::string text;
+  for (const std::string& sentence : attention_sentences(summary))
+    for (bool is_first = true; const std::string& line : wrapped(sentence, text_width - 2)) {
+      text += fmt::format("{}{}\n", is_first ? "- " : "  ", line);
+      is_first = false;
+    }
+  return text.empty() ? "" : "\nAttention\n" + text;
 }
 
 std::string hypotheses_text(const Summary& summary) {
@@ -72,10 +83,15 @@ std::vector<Table> filled(std::vector<Table> tables) {
 }
 
 std::string headline(const Summary& summary) {
+  const auto n_people = static_cast<int>(summary.participants.size());
+  const std::string analyzed =
+      summary.n_participants == n_people
+          ? ""
+          : fmt::format(", {} of them in the figures,", summary.n_participants);
   const std::string text =
-      fmt::format("heft {}: {} of {} in {}", HEFT_VERSION,
+      fmt::format("heft {}: {} of {}{} in {}", HEFT_VERSION,
                   counted(static_cast<std::int64_t>(summary.sessions.size()), "session"),
-                  counted(summary.n_participants, "participant"), summary.database);
+                  counted(n_people, "participant"), analyzed, summary.database);
   return titled(text, summary);
 }
 
@@ -84,9 +100,8 @@ std::string readable(const Summary& summary) {
   if (!summary.sessions.empty())
     for (const std::string& sentence : leading_sentences(summary))
       for (const std::string& line : wrapped(sentence, text_width)) text += line + '\n';
-  for (const std::string& note : summary.notes)
-    for (const std::string& line : wrapped(note, text_width)) text += line + '\n';
   text += absences(summary);
+  text += attention_text(summary);
   for (const Table& table :
        filled(tables_at(summary, {TablePlace::first, TablePlace::results, TablePlace::run})))
     text += '\n' + as_text(table);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "analysis/display/Phrases.h"
 #include "base/Error.h"
 #include "base/files/TextFile.h"
 #include "cli/Commands.h"
@@ -37,13 +38,9 @@ struct FitResponderOptions {
 constexpr int enough_per_person = 5;
 constexpr int enough_for_answers = 10;
 
-std::string number(double value) {
-  return fmt::format("{:.3g}", value);
-}
-
 std::string interval_of(const FreeEstimate& one) {
-  return fmt::format("[{}, {}]", one.low ? number(*one.low) : "...",
-                     one.high ? number(*one.high) : "...");
+  return fmt::format("[{}, {}]", one.low ? in_digits(*one.low) : "...",
+                     one.high ? in_digits(*one.high) : "...");
 }
 
 std::string beside(std::optional<double> reported, std::optional<double> found,
@@ -69,7 +66,7 @@ void print_parameters(const ResponderFit& fit) {
   print("{:<28} {:>9}  {:<20}\n", "parameter", "estimate", "95 % interval");
   for (const FreeEstimate& one : fit.parameters)
     print(
-        "{:<28} {:>9}  {:<20} {}\n", one.free.name, number(one.value), interval_of(one),
+        "{:<28} {:>9}  {:<20} {}\n", one.free.name, in_digits(one.value), interval_of(one),
         one.identified() ? "" : fmt::format("open within {:g}..{:g}", one.free.low, one.free.high));
 }
 

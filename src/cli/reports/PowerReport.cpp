@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/charts/Plot.h"
+#include "analysis/display/Phrases.h"
 #include "analysis/display/Table.h"
 #include "cli/console/Terminal.h"
 #include "cli/reports/Reports.h"
@@ -26,12 +27,6 @@ constexpr std::size_t screen_width = 80;
 
 double share_of(const HypothesisPower& power) {
   return power.supported.percent() / 100;
-}
-
-std::string number(double value) {
-  constexpr double most_digits = 1e5;
-  if (std::abs(value) >= most_digits) return fmt::format("{:.0e}", value);
-  return std::abs(value) >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
 
 std::string name_of(const EstimatePrecision& one) {
@@ -126,6 +121,7 @@ std::vector<const PowerAtSize*> columns_of(const ModelPower& found, bool tables)
 
 std::string cell(const HypothesisPower* power) {
   if (!power) return "-";
+  if (!power->is_tested) return "not tested";
   return fmt::format("{:.0f} % [{:.0f}, {:.0f}]", 100 * share_of(*power), 100 * power->interval.low,
                      100 * power->interval.high);
 }
@@ -133,8 +129,8 @@ std::string cell(const HypothesisPower* power) {
 std::string cell(const EstimatePrecision* one) {
   if (!one || one->printed.n_hits == 0) return "none";
   const char* often = one->printed.n_hits == one->printed.n_trials ? "" : "*";
-  return fmt::format("{} [{}, {}]{}", number(one->median_value), number(one->median_low),
-                     number(one->median_high), often);
+  return fmt::format("{} [{}, {}]{}", in_digits(one->median_value), in_digits(one->median_low),
+                     in_digits(one->median_high), often);
 }
 
 void print_table(const ModelPower& found, bool tables) {
@@ -173,16 +169,23 @@ void print_table(const ModelPower& found, bool tables) {
 
 // Which hypotheses the largest study is likely to support.
 std::string sentence_of_hypotheses(const PowerAtSize& size) {
-  std::vector<std::string> likely, unlikely;
+  std::vector<std::string> likely, unlikely, untested;
   for (const HypothesisPower& one : size.hypotheses)
-    (share_of(one) >= wanted_power ? likely : unlikely).push_back(one.name);
+    (!one.is_tested                  ? untested
+     : share_of(one) >= wanted_power ? likely
+                                     : unlikely)
+        .push_back(one.name);
+  const std::string cannot =
+      untested.empty() ? ""
+                       : fmt::format("\nDeclared, but this protocol does not test it: {}.",
+                                     fmt::join(untested, ", "));
   if (likely.empty())
-    return fmt::format("With {} people, no hypothesis is supported in {:.0f} % of studies.",
-                       size.participants, 100 * wanted_power);
+    return fmt::format("With {} people, no hypothesis is supported in {:.0f} % of studies.{}",
+                       size.participants, 100 * wanted_power, cannot);
   std::string text = fmt::format("With {} people, at least {:.0f} % of studies support {}.",
                                  size.participants, 100 * wanted_power, fmt::join(likely, ", "));
   if (!unlikely.empty()) text += fmt::format("\nFewer support {}.", fmt::join(unlikely, ", "));
-  return text;
+  return text + cannot;
 }
 
 std::string sentence_of_precision(const PowerAtSize& size) {
@@ -196,9 +199,10 @@ std::string sentence_of_precision(const PowerAtSize& size) {
       widest = &one;
   if (!widest) return "";
   const std::string text = fmt::format(
-      "Least certain with {} people: {}, to within a factor of {:.2g} (printed in {:.0f} % of "
+      "Least certain with {} people: {}, to within a factor of {} (printed in {:.0f} % of "
       "studies).",
-      size.participants, short_name_of(*widest), factor(*widest), widest->printed.percent());
+      size.participants, short_name_of(*widest), in_digits(factor(*widest)),
+      widest->printed.percent());
   return fmt::format("{}\n", fmt::join(heft::wrapped(text, screen_width), "\n"));
 }
 
@@ -206,6 +210,7 @@ ordered_json object_of(const HypothesisPower& one) {
   return {{"hypothesis", one.name},
           {"statement", one.statement},
           {"declared", one.declared},
+          {"tested", one.is_tested},
           {"supported", share_of(one)},
           {"supported_interval", {one.interval.low, one.interval.high}},
           {"not_supported", one.not_supported.percent() / 100},
