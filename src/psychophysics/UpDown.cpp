@@ -84,7 +84,10 @@ std::string UpDownConfig::course(std::string_view unit) const {
   const std::string_view step_unit = step_scale == StepScale::linear ? unit : name_of(step_scale);
   if (!steps.empty())
     return fmt::format(
-        "from {:g} {}, steps {:g} {}{}", start, unit, fmt::join(steps, ", "), step_unit,
+        "from {:g} {}, steps {:g} {}{}{}", start, unit, fmt::join(steps, ", "), step_unit,
+        steps_up.empty()
+            ? ""
+            : fmt::format(" down and {:g} {} up", fmt::join(steps_up, ", "), step_unit),
         change_after_trials.empty()
             ? ""
             : fmt::format(", changed after {:g} trials", fmt::join(change_after_trials, ", ")));

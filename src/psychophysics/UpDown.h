@@ -122,10 +122,10 @@ void visit_keys(Config& config, Visit&& visit) {
   const Range levels = is_ratio ? zero_or_more : any_number;
   visit(ConfigKey{"floor", "lowest level", false, "floor {} g"}, config.floor, levels);
   visit(ConfigKey{"ceiling", "highest level", false, "ceiling {} g"}, config.ceiling, levels);
-  visit(ConfigKey{"up", "consecutive negative responses before a move up"}, config.up,
-        WholeRange{1});
-  visit(ConfigKey{"down", "consecutive positive responses before a move down"}, config.down,
-        WholeRange{1});
+  visit(ConfigKey{"up", "consecutive negative responses before a move up", false, "{} up"},
+        config.up, WholeRange{1});
+  visit(ConfigKey{"down", "consecutive positive responses before a move down", false, "{} down"},
+        config.down, WholeRange{1});
   visit(ConfigKey{"initial_1up1down", "1-up-1-down until the first reversal"},
         config.initial_1up1down);
   visit(ConfigKey{"at_bound", "clamp the level at a bound, or only the presented level"},
@@ -135,12 +135,14 @@ void visit_keys(Config& config, Visit&& visit) {
   visit(ConfigKey{"change_step", "whether a reversal's move has the new step", false,
                   "step changes {}"},
         config.change_step);
-  visit(ConfigKey{"stop_reversals", "reversals that end it"}, config.stop_reversals, WholeRange{1});
+  visit(ConfigKey{"stop_reversals", "reversals that end it", false, "ends after {} reversals"},
+        config.stop_reversals, WholeRange{1});
   visit(ConfigKey{"min_trials", "trials before which reversals do not end it"}, config.min_trials,
         WholeRange{});
   visit(ConfigKey{"stop_trials", "trials that end it", false, "at most {} trials"},
         config.stop_trials, WholeRange{1});
-  visit(ConfigKey{"discard_reversals", "first reversals that the estimate leaves out"},
+  visit(ConfigKey{"discard_reversals", "first reversals that the estimate leaves out", false,
+                  "first {} reversals left out"},
         config.discard_reversals, WholeRange{});
 }
 

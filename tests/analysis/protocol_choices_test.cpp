@@ -39,7 +39,8 @@ TEST(ProtocolChoices, NameWhatThePaperLeavesOpen) {
   EXPECT_EQ(value_of(choices, "wrong introduction answer"), "same_layout");
   EXPECT_EQ(value_of(choices, "between the experiments"), "a break of at least 60 s");
   EXPECT_EQ(value_of(choices, "staircase 15g"),
-            "floor 0 g, ceiling 1500 g, step changes before_move, at most 60 trials");
+            "floor 0 g, ceiling 1500 g, 1 up, 1 down, step changes before_move, ends after 10 "
+            "reversals, at most 60 trials, first 2 reversals left out");
   EXPECT_EQ(value_of(choices, "staircase 15g, start and steps"),
             "from 175 g, steps 50 g, halved every 2 reversals");
 }

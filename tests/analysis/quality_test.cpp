@@ -39,6 +39,15 @@ TEST(Quality, CountsAnswersThatCantBe) {
   EXPECT_EQ(counted(quality, "void attempts"), 1);
 }
 
+TEST(Quality, CountsLossesByTheSizeOfTheDifference) {
+  SessionData data = session(1, "a");
+  add_timed(data, -50, 3);
+  add_timed(data, 50, 3);
+  const Quality quality = quality_of({&data, 1});
+  ASSERT_EQ(quality.losses.size(), 1);
+  EXPECT_EQ(quality.losses[0].difference, "over 0 to 100 g");
+}
+
 TEST(Quality, CountsLossesByLevel) {
   SessionData data = session(1, "a");
   add_timed(data, 0, 3);

@@ -112,7 +112,7 @@ TEST(Summary, SaysWhatIsUnfinishedRepeatedAndOfSeveralProtocols) {
   const std::string text = text_of({first, again});
   EXPECT_THAT(text, HasSubstr("Not finished: session 2 (a, paused)"));
   EXPECT_THAT(text, HasSubstr("More than one session: a (2 sessions)"));
-  EXPECT_THAT(text, HasSubstr("2 different protocols"));
+  EXPECT_THAT(text, HasSubstr("The sessions ran 2 protocols"));
 }
 
 TEST(Summary, AnOrdinaryLogHasNoNotes) {

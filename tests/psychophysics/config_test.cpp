@@ -137,7 +137,8 @@ TEST(Config, KeepsAComparisonFromWeighingNothing) {
 
 TEST(Config, IsReportedByItsKeys) {
   EXPECT_EQ(ProcedureKinds::described(Procedure("s", test::paper_15g())),
-            "floor 0 g, ceiling none, step changes before_move, at most 200 trials");
+            "floor 0 g, ceiling none, 1 up, 1 down, step changes before_move, ends after 10 "
+            "reversals, at most 200 trials, first 2 reversals left out");
   EXPECT_EQ(ProcedureKinds::described(
                 Procedure("s", ConstantConfig{.levels = {-5, 2.5}, .n_per_level = 3})),
             "constant levels -5, 2.5 g, each 3 times, order blocks");

@@ -45,17 +45,21 @@ class Drawing {
   }
 
   Chart chart() {
-    Chart chart{spec_.name, titled(spec_.title, summary_), "", spec_.caption, 0, spec_.csv};
+    Chart chart{spec_.name, titled(spec_.title, summary_), "", spec_.caption, 0, 0, spec_.csv};
     std::vector<PlotPanel> panels;
     if (!estimates_.empty())
       for (const std::string& name : panels_)
         if (PlotPanel panel = panel_named(name); !panel.layers.empty())
           panels.push_back(std::move(panel));
     if (panels.empty()) return chart;
-    for (const StudyEstimate* one : estimates_) chart.n = std::max(chart.n, one->n);
+    for (const StudyEstimate* one : estimates_) {
+      if (!one->value) continue;
+      chart.least_n = chart.n == 0 ? one->n : std::min(chart.least_n, one->n);
+      chart.n = std::max(chart.n, one->n);
+    }
     if (spec_.shape == ChartShape::linked || spec_.shape == ChartShape::people ||
         spec_.shape == ChartShape::scatter)
-      chart.n = n_people();
+      chart.n = chart.least_n = n_people();
     PlotFrame frame;
     frame.panel_width_px = panel_width_px();
     if (spec_.shape == ChartShape::matrix) {

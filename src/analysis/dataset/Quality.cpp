@@ -63,7 +63,8 @@ using LossKey = std::tuple<Task, std::string, std::size_t>;
 
 LossKey key_of(const TrialPlan& plan) {
   const bool compared = plan.task == "comparison" && plan.level_g;
-  return {plan.task, plan.condition, compared ? band_of(*plan.level_g, differences_g) + 1 : 0};
+  return {plan.task, plan.condition,
+          compared ? band_of(std::abs(*plan.level_g), differences_g) + 1 : 0};
 }
 
 void count_loss(LossRow& row, const SessionData& data, const Attempt& attempt) {

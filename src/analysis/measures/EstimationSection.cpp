@@ -264,7 +264,8 @@ class EstimationSection final : public Section {
          .split = split,
          .participants = true,
          .x_label = "mass (g)",
-         .y_label = "number"},
+         .y_label = "number",
+         .axes = "set logscale xy\n"},
         {.name = "estimation_exponent",
          .title = "Exponents of magnitude estimation, 95 % intervals",
          .caption = "Slope of the logarithm of the number on the logarithm of the mass: mean "

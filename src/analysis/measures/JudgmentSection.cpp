@@ -91,8 +91,9 @@ std::vector<std::pair<double, std::string>> cubes_to_choose(const Meanings& resp
 
 std::string in_brackets(const StudyEstimate& one) {
   if (!one.low) return "";
-  return one.measure == &share ? fmt::format(" [{:.0f}, {:.0f}]", *one.low, *one.high)
-                               : fmt::format(" [{:.3g}, {:.3g}]", *one.low, *one.high);
+  return one.measure == &share
+             ? fmt::format(" [{:.0f}, {:.0f}]", *one.low, *one.high)
+             : fmt::format(" [{}, {}]", in_digits(*one.low), in_digits(*one.high));
 }
 
 class JudgmentSection final : public Section {
@@ -153,7 +154,7 @@ class JudgmentSection final : public Section {
       if (have_thresholds_.contains(one.text_at("block"))) continue;
       const std::string what =
           one.measure == &share ? fmt::format("{:.0f} % \"{}\"", *one.value, one.text_at("answer"))
-                                : fmt::format("{:.3g}", *one.value);
+                                : in_digits(*one.value);
       parts[one.text_at("block")].push_back(fmt::format("{}{} at {} g {}", what, in_brackets(one),
                                                         one.text_at("masses_g"),
                                                         in_condition(summary, one.condition)));

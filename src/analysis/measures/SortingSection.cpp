@@ -228,10 +228,12 @@ EstimateTable participants_table() {
   return table;
 }
 
-// "all 5", "3 of 5", "none of 5"
+// "all 5 were", "1 of 5 was", "none of 5 were"
 std::string hits_in_words(int n_hits, int n) {
-  if (n_hits == n) return fmt::format("all {}", n);
-  return fmt::format("{} of {}", n_hits == 0 ? "none" : fmt::format("{}", n_hits), n);
+  if (n == 1) return n_hits == 1 ? "the only trial was" : "the only trial was not";
+  if (n_hits == n) return fmt::format("all {} were", n);
+  return fmt::format("{} of {} {}", n_hits == 0 ? "none" : fmt::format("{}", n_hits), n,
+                     n_hits == 1 ? "was" : "were");
 }
 
 std::string percent_in_words(const StudyEstimate& share) {
@@ -256,8 +258,8 @@ std::string condition_in_words(const Summary& summary, const std::string& condit
     return fmt::format("{} all {} answers were \"I don't know\"", where, none.n_hits);
   std::string text =
       correct.n == 1
-          ? fmt::format("{} {} were correct, {}", where,
-                        hits_in_words(correct.n_hits, correct.n_trials), percent_in_words(correct))
+          ? fmt::format("{} {} correct, {}", where, hits_in_words(correct.n_hits, correct.n_trials),
+                        percent_in_words(correct))
           : fmt::format("{} {} were correct", where, percent_in_words(correct));
   if (none.n_hits == 0) return text;
   return text + (none.n == 1 ? fmt::format(", and {} \"I don't know\"", none.n_hits)
@@ -340,7 +342,7 @@ class SortingSection final : public Section {
         {.name = "sorting",
          .title = "Sorting: answers per condition, 95 % intervals",
          .caption = "Percentage of completed trials, mean over participants with 95 % intervals. "
-                    "Diamonds: the paper's means. Dashed: correct by chance.",
+                    "Dashed: correct by chance.",
          .csv = "sorting.csv",
          .importance = 10,
          .series = {{&answers, "", {"trials", "all"}}},

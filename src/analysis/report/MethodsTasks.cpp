@@ -73,33 +73,41 @@ std::string in_words(const Adjustment::Block& block) {
       block.start_g[1], block.steps_g[0], block.steps_g[1], block.lowest_g(), block.highest_g());
 }
 
+// "each correct choice", "3 correct choices in a row"
+std::string successive(int n, std::string what) {
+  if (n == 1) return fmt::format("each {}", what);
+  for (const std::string_view noun : {"choice", "answer"})
+    if (const auto at = what.find(noun); at != std::string::npos)
+      what.insert(at + noun.size(), "s");
+  return fmt::format("{} {} in a row", n, what);
+}
+
 // The rule that several up-down staircases share: all but reference, start and steps.
 std::string rule_of(const UpDownConfig& rule, const Comparison::Block& block) {
   const bool correct = block.positive_answer == PositiveAnswer::correct_choice;
   const bool same = block.answers == ComparisonAnswers::same_different;
-  const std::string_view down = same                ? "answer \"different\""
-                                : block.is_forced() ? "choice of the comparison"
-                                : correct           ? "correct choice"
-                                                    : "choice of either cube";
-  const std::string_view up = same                ? "answer \"same\""
-                              : block.is_forced() ? "choice of the reference"
-                              : correct           ? "incorrect choice or \"no difference\""
-                                                  : "answer \"no difference\"";
-  const auto times = [](int n, std::string_view what) {
-    return n == 1 ? fmt::format("each {}", what) : fmt::format("{} times {} in a row", n, what);
-  };
+  const std::string down = same                ? "answer \"different\""
+                           : block.is_forced() ? "choice of the comparison"
+                           : correct           ? "correct choice"
+                                               : "choice of either cube";
+  const std::string up = same                ? "answer \"same\""
+                         : block.is_forced() ? "choice of the reference"
+                         : correct           ? "incorrect choice or \"no difference\""
+                                             : "answer \"no difference\"";
   std::string text = fmt::format("The difference decreased after {} and increased after {}",
-                                 times(rule.down, down), times(rule.up, up));
+                                 successive(rule.down, down), successive(rule.up, up));
   if (rule.initial_1up1down) text += " (until the first reversal after each answer)";
   if (rule.floor && rule.ceiling)
     text += fmt::format(", between {:g} and {:g} g", *rule.floor, *rule.ceiling);
   else if (rule.floor || rule.ceiling)
     text += fmt::format(", {} {:g} g", rule.floor ? "from" : "up to",
                         rule.floor ? *rule.floor : *rule.ceiling);
-  return text + fmt::format(
-                    ". A staircase ended after {} reversals, or after {} trials; its JND is the "
-                    "mean difference at all reversals but the first {}.",
-                    rule.stop_reversals, rule.stop_trials, rule.discard_reversals);
+  text += fmt::format(". A staircase ended after {}, or after {}",
+                      counted(rule.stop_reversals, "reversal"), counted(rule.stop_trials, "trial"));
+  if (!block.has_three_answers()) return text + ".";
+  return text + "; its JND is the mean difference at all reversals" +
+         (rule.discard_reversals == 0 ? "."
+                                      : fmt::format(" but the first {}.", rule.discard_reversals));
 }
 
 // A kind of procedure that is not up-down, with its settings.

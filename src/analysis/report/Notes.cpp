@@ -85,8 +85,8 @@ std::string NotesCollector::protocols_note() const {
   for (const auto& [sha256, name] : protocols_)
     names.push_back(fmt::format("{} ({:.8})", name, sha256));
   return fmt::format(
-      "The sessions used {} different protocols, analyzed together: {}. Select sessions with "
-      "--session N...",
+      "The sessions ran {} protocols, as the groups of a study do: {}. Equal conditions are "
+      "analyzed together; --session N... selects sessions.",
       protocols_.size(), some_of(names));
 }
 

@@ -103,7 +103,9 @@ void KeysReport::add(const ConfigKey& key, const std::string& value) {
   if (!text.empty()) text += ", ";
   text += key.report.substr(0, place);
   text += value;
-  if (value != "none") text += key.report.substr(place + 2);  // the unit
+  if (value == "none") return;
+  text += key.report.substr(place + 2);  // the unit
+  if (value == "1" && text.ends_with('s')) text.pop_back();
 }
 
 }  // namespace heft

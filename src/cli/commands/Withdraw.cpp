@@ -74,7 +74,8 @@ std::map<std::string, std::vector<std::string>> by_folder(const std::set<std::st
 void report_copies(const Found& found, const WithdrawOptions& options) {
   const std::set<std::string> copies =
       copies_of_session(found.folders, options.db, found.facts.row.header);
-  print("copies, in {}:\n", fmt::format("{}", fmt::join(found.folders, ", ")));
+  print("files that hold or may hold copies, in {}:\n",
+        fmt::format("{}", fmt::join(found.folders, ", ")));
   for (const auto& [folder, names] : by_folder(copies))
     if (names.size() > 3)
       print("  {} ({} files, such as {})\n", folder, names.size(), names.front());

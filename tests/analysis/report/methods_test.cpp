@@ -140,8 +140,9 @@ TEST(Methods, OfForcedChoicesSayHowTheseWereMade) {
   const std::string text = all_of(methods);
   for (const char* part :
        {"4 people took part", "on balanced sides, and chose the heavier one",
-        "200 g from 200 g, steps 80, 40, 20 g", "decreased after 3 times choice of the comparison",
-        "from 5 g", "ended after 6 reversals, or after 40 trials",
+        "200 g from 200 g, steps 80, 40, 20 g",
+        "decreased after 3 choices of the comparison in a row", "from 5 g",
+        "ended after 6 reversals, or after 40 trials",
         "the method of constant stimuli: constant levels -160, -80, -40, 40, 80, 160 g, each 4 "
         "times"})
     EXPECT_THAT(text, HasSubstr(part));
