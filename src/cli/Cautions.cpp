@@ -51,7 +51,8 @@ std::vector<std::string> cautions_of_procedures(const TaskBlock& block) {
 
 // Warns of simulators that model one stroke or rigid contacts only, of settings that displace the
 // clone from the filmed effector, which participants interpret as mass, of resets that reveal it,
-// of declared hypotheses that the protocol cannot test, and of procedures.
+// of techniques that replace predefined ones, of declared hypotheses that the protocol cannot test,
+// and of procedures.
 std::vector<std::string> cautions(const Protocol& protocol) {
   constexpr double stroke_m_s = 0.3;
   const auto& [mode, predict_s] = protocol.simulator.input;
@@ -75,6 +76,13 @@ std::vector<std::string> cautions(const Protocol& protocol) {
     found.emplace_back(
         "[layout] out_of_area = \"return\", the default, reveals the mass: light "
         "cubes jump back in most trials, heavy ones hardly ever: use \"together\"");
+  for (const Technique& technique : protocol.techniques)
+    if (technique.name == coupled_technique || technique.name == spring_technique)
+      found.push_back(
+          fmt::format("[[technique]] name = \"{}\" replaces the predefined technique of this name; "
+                      "another name "
+                      "keeps both apart",
+                      technique.name));
   for (const auto& [name, needs] : published::untestable_in(protocol))
     found.push_back(
         fmt::format("[analysis] declares {}, which cannot be tested: it needs {}", name, needs));

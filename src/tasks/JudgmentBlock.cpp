@@ -5,6 +5,7 @@
 #include <iterator>
 #include <set>
 
+#include "base/Names.h"
 #include "tasks/Judgment.h"
 
 namespace heft {
@@ -158,12 +159,16 @@ std::optional<std::string> Judgment::Block::mistake_in_question() const {
         "the question {} is no choice, expected one: its choices respond to the "
         "staircases",
         asks);
+  std::vector<std::string_view> choices;
+  for (const AnswerChoice& choice : question->choices) choices.emplace_back(choice.value);
   for (const AnswerChoice& choice : question->choices)
     if (!meaning_of(responses, &choice))
-      return fmt::format("responses has nothing for the choice \"{}\" of {}", choice.value, asks);
+      return fmt::format("responses has nothing for the choice \"{}\" of {}, expected {}",
+                         choice.value, asks, quoted_list(choices));
   for (const auto& [value, meaning] : responses)
     if (std::ranges::count(question->choices, value, &AnswerChoice::value) == 0)
-      return fmt::format("responses has \"{}\", which is no choice of {}", value, asks);
+      return fmt::format("responses has \"{}\", which is no choice of {}, expected {}", value, asks,
+                         quoted_list(choices));
   return std::nullopt;
 }
 

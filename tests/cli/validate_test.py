@@ -113,7 +113,7 @@ text = "Why?"
             lacking = self.validate(self.file("lacking.toml", judgment.replace(
                 "dissimilarity.heaviness", name)))
             self.assertEqual((lacking.returncode, lacking.stdout), (3, ""))
-            self.assertRegex(lacking.stderr, rf"lacking\.toml:{line}:12: block pairs asks .*q_y\.en\.toml lacks")
+            self.assertRegex(lacking.stderr, rf"lacking\.toml:{line}:12: block pairs asks .*q_y\.en\.toml lacks; expected .c.\n")
 
     def test_a_character_without_font_hides_no_word_that_does_not_fit(self):
         asks = self.questioned("Choose \U0010ffff")
@@ -154,6 +154,29 @@ protocol = "asks.toml"
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertRegex(run.stdout, r"ok, a protocol: about \d+ trials and \d+ min")
         self.assertIn("models one straight push", run.stderr)
+
+    def test_cautions_of_a_technique_that_replaces_a_predefined_one(self):
+        text = (PROTOCOLS / "quick.toml").read_text(encoding="utf-8")
+        for name, expected in (("C2", 1), ("soft", 0)):
+            run = self.validate(self.file(
+                "a.toml", text + f'[[technique]]\nname = "{name}"\nkind = "spring"\n'))
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertEqual(run.stderr.count(f'name = "{name}" replaces the predefined'), expected)
+
+    def test_two_ways_to_count_trials_are_one_too_many(self):
+        run = self.validate(self.file("a.toml", '''title = "t"
+[[block]]
+kind = "estimation"
+name = "e"
+masses_g = [20, 50]
+trials_per_mass = 2
+scale = "slider"
+[block.trials]
+C1 = 2
+'''))
+        self.assertEqual(run.returncode, 3)
+        self.assertIn("a.toml:6:19: trials_per_mass together with [block.trials]", run.stderr)
+        self.assertNotIn("unknown", run.stderr)
 
     def test_warns_of_choices_for_see_through_displays(self):
         text = (PROTOCOLS / "quick.toml").read_text(encoding="utf-8")

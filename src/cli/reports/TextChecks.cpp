@@ -4,6 +4,7 @@
 #include <map>
 
 #include "apparatus/configuration/ResolvedConfig.h"
+#include "base/Names.h"
 #include "base/files/Printable.h"
 #include "base/files/TextFile.h"
 #include "cli/SessionOptions.h"
@@ -116,6 +117,16 @@ void add_missing_characters(const SessionWords& words, WordFaults& faults) {
   for (const auto& [file, lacking] : by_file) add_missing_characters(lacking, file, faults);
 }
 
+// @param name of the questionnaire
+std::string questions_in(const SessionWords& words, const std::string& name) {
+  std::vector<std::string_view> keys;
+  if (const auto form = words.texts.questionnaires.find(name);
+      form != words.texts.questionnaires.end())
+    for (const FormQuestion& asked : form->second.questions)
+      if (asked.kind != QuestionKind::text) keys.emplace_back(asked.key);
+  return keys.empty() ? "one that is answered on the screen" : quoted_list(keys);
+}
+
 // Checks that the questions of trials exist and fit beside the cubes.
 void check_questions(Protocol protocol, const std::string& protocol_file, const SessionWords& words,
                      WordFaults& faults) {
@@ -129,9 +140,9 @@ void check_questions(Protocol protocol, const std::string& protocol_file, const 
     if (trials->lacks_question()) {
       faults.mistakes.push_back(
           {place_of_value(name + '.', protocol.text, protocol_file),
-           fmt::format("block {} asks a question of the questionnaire {} that {} lacks; expected "
-                       "one that is answered on the screen",
-                       trials->name(), name, file)});
+           fmt::format(
+               "block {} asks a question of the questionnaire {} that {} lacks; expected {}",
+               trials->name(), name, file, questions_in(words, name))});
       continue;
     }
     if (const auto mistake = trials->mistake_in_question()) {

@@ -69,7 +69,8 @@ class JudgmentStaircase(SessionTest):
         wrong = self.folder / "wrong.toml"
         wrong.write_text(text.replace('no = "negative"', 'never = "negative"'), encoding="utf-8")
         said = self.run_heft("validate", wrong, expect=3)
-        self.assertIn(f"wrong.toml:{line}:12: block heavy: responses has nothing for the choice \"no\"",
+        self.assertIn(f"wrong.toml:{line}:12: block heavy: responses has nothing for the choice \"no\" "
+                      'of heavy.heavy, expected "yes" or "no"',
                       said.stdout + said.stderr)
         said = self.run_heft("simulate", wrong, "--db", self.folder / "s.db", expect=3)
         self.assertIn("the choice \"no\"", said.stderr)
