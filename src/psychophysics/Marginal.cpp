@@ -66,7 +66,7 @@ void LogWeights::normalize() {
   Eigen::Map<Eigen::ArrayXd> logs(logs_.data(), n), weights(weights_.data(), n);
   const double largest = logs.maxCoeff();
   logs -= largest;
-  weights = logs.exp();  // all at once, which within a select would be one by one
+  weights = logs.max(last_digit).exp();  // numbers below the normal ones would be slow
   weights = (logs > last_digit).select(weights, 0);
   const double sum = weights.sum();
   weights /= sum;
