@@ -115,6 +115,18 @@ TEST(Summary, SaysWhatIsUnfinishedRepeatedAndOfSeveralProtocols) {
   EXPECT_THAT(text, HasSubstr("The sessions ran 2 protocols"));
 }
 
+TEST(Summary, NamesSortingsOfDifferentMassesThatAreOneFigure) {
+  SessionData data = session(1, "a");
+  add_sorting(data, "C1", "correct").cubes = cubes({800, 15, 200});
+  add_sorting(data, "C1", "correct").cubes = cubes({15, 200, 800});
+  add_sorting(data, "C2", "correct").cubes = cubes({15, 200, 800});
+  EXPECT_THAT(text_of({data}), Not(HasSubstr("different masses")));
+  add_sorting(data, "C2", "correct").cubes = cubes({50, 60});
+  EXPECT_THAT(text_of({data}),
+              HasSubstr("Sortings of different masses are analyzed together: in C2 "
+                        "of 15, 200, 800 g; of 50, 60 g."));
+}
+
 TEST(Summary, AnOrdinaryLogHasNoNotes) {
   EXPECT_TRUE(summarize({"x.db", {full_session(1, "a"), full_session(2, "b")}}, "").notes.empty());
 }

@@ -75,14 +75,16 @@ class JudgmentThresholdSection final : public Section {
         key_column("block", "block"), key_column("question", "question"),
         key_column("condition", "condition"), key_column("reference_g", "reference g"),
         key_column("method", "method")};
-    EstimateTable means{"judgment_threshold",
-                        "Thresholds of judgments, mean over participants",
-                        place,
-                        "what the procedures of judgments estimated, as for JNDs: of a single "
-                        "cube (no reference) the mass, otherwise the difference from the "
-                        "reference; censored: known only to lie above or below",
-                        TablePlace::results,
-                        "judgment_threshold[]"};
+    EstimateTable means{
+        "judgment_threshold",
+        "Thresholds of judgments, mean over participants",
+        place,
+        "what the procedures of judgments estimated, as for JNDs: of a single "
+        "cube (no reference) the mass, otherwise the difference from the "
+        "reference; censored: known only to lie above or below. A staircase gives a "
+        "threshold for any answers, random ones too: see its trials",
+        TablePlace::results,
+        "judgment_threshold[]"};
     for (EstimateColumn& one :
          std::vector{column(threshold, Field::value, "mean_g", "threshold g"),
                      column(threshold, Field::sd, "sd_g", "SD"),

@@ -9,6 +9,7 @@
 #include "analysis/display/Phrases.h"
 #include "tasks/Comparison.h"
 #include "tasks/Judgment.h"
+#include "tasks/Sorting.h"
 
 namespace heft {
 
@@ -65,6 +66,12 @@ void NotesCollector::add(const SessionData& data) {
   if (std::ranges::any_of(data.setups,
                           [](const auto& s) { return s.setup.tracker.name == "mouse"; }))
     dragged_.push_back(fmt::format("{} ({})", data.session.session_id, header.participant));
+  for (const Attempt& attempt : data.attempts) {
+    if (attempt.trial.plan.task != Sorting::task.name || !attempt.completed()) continue;
+    std::vector<double> masses_g = attempt.masses_g();
+    std::ranges::sort(masses_g);
+    sorted_g_[attempt.trial.plan.condition].insert(std::move(masses_g));
+  }
   pictures_ += data.pictures;
 }
 
@@ -101,6 +108,21 @@ std::vector<std::string> NotesCollector::methods_notes() const {
   return notes;
 }
 
+// Whether a sorting is hard depends on its masses.
+std::string NotesCollector::sorted_note() const {
+  std::vector<std::string> conditions;
+  for (const auto& [condition, all] : sorted_g_) {
+    std::vector<std::string> sets;
+    for (const auto& masses_g : all)
+      sets.push_back(fmt::format("{:g} g", fmt::join(masses_g, ", ")));
+    if (sets.size() > 1)
+      conditions.push_back(fmt::format("in {} of {}", condition, fmt::join(sets, "; of ")));
+  }
+  if (conditions.empty()) return "";
+  return fmt::format("Sortings of different masses are analyzed together: {}.",
+                     some_of(conditions, 3));
+}
+
 // A dragged effector has the same physics as a held one, but other movements.
 std::string NotesCollector::dragged_note() const {
   if (dragged_.empty()) return "";
@@ -123,11 +145,17 @@ std::string NotesCollector::pictures_note() const {
 }
 
 std::vector<std::string> NotesCollector::result(const Summary& summary) const {
-  std::vector<std::string> notes{unverified_note(summary), withdrawn_note(summary),
-                                 simulated_note(summary),  missing_note(summary),
-                                 unfinished_note(summary), excluded_note(summary),
-                                 repeated_note(),          protocols_note(),
-                                 dragged_note(),           pictures_note()};
+  std::vector<std::string> notes{unverified_note(summary),
+                                 withdrawn_note(summary),
+                                 simulated_note(summary),
+                                 missing_note(summary),
+                                 unfinished_note(summary),
+                                 excluded_note(summary),
+                                 repeated_note(),
+                                 protocols_note(),
+                                 dragged_note(),
+                                 pictures_note(),
+                                 sorted_note()};
   std::ranges::move(methods_notes(), std::back_inserter(notes));
   std::erase(notes, "");
   return notes;

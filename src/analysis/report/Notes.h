@@ -33,6 +33,7 @@ class NotesCollector {
   std::string repeated_note() const;
   std::string protocols_note() const;
   std::vector<std::string> methods_notes() const;
+  std::string sorted_note() const;
   std::string dragged_note() const;
   std::string pictures_note() const;
 
@@ -40,6 +41,7 @@ class NotesCollector {
   std::map<std::string, std::string> protocols_;  // names, by content
   /// Methods of the thresholds by block of judgments; "" for JNDs of comparisons.
   std::map<std::string, std::set<std::string>> methods_;
+  std::map<std::string, std::set<std::vector<double>>> sorted_g_;  ///< masses, by condition
   std::vector<std::string> dragged_;
   PictureCounts pictures_;
 };
