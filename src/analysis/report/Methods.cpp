@@ -226,7 +226,7 @@ std::string model_check(const Estimates& all) {
       "the participants' staircases: {} (smallest p = {:.3f}, for all figures together).",
       n_studies,
       missed.empty() ? "its predictions agree with the data"
-                     : "it does not predict the data at " + listed(missed),
+                     : fmt::format("it does not predict the data at {}", listed(missed)),
       least_p);
 }
 

@@ -145,7 +145,7 @@ class KeyReader {
   }
   void read(std::string_view, TrialsOfEach<std::vector<TechniqueTrials>>& field) {
     if (table_.has_table("trials")) {
-      if (int unused = 0; table_.has(field.number_key)) {
+      if (int unused = 0; field.number_key != "trials" && table_.has(field.number_key)) {
         table_.read(field.number_key, unused, {1, most_trials});
         table_.mistake(field.number_key, fmt::format("{} together with [block.trials], expected "
                                                      "only one of them",
