@@ -78,7 +78,7 @@ std::string successive(int n, std::string what) {
   if (n == 1) return fmt::format("each {}", what);
   for (const std::string_view noun : {"choice", "answer"})
     if (const auto at = what.find(noun); at != std::string::npos)
-      what.insert(at + noun.size(), "s");
+      what.insert(at + noun.size(), 1, 's');
   return fmt::format("{} {} in a row", n, what);
 }
 
