@@ -154,6 +154,8 @@ TEST(PredictiveCheck, JudgesAllModelsByTheFarthestFigureOfAny) {
   const std::vector<double> all = joint_p(std::array{wide, narrow});
   EXPECT_DOUBLE_EQ(all[0], 85.0 / 101);  // 0.03 i is 0.5 or more for i from 17 on
   EXPECT_DOUBLE_EQ(all[1], all[0]);
+  narrow.farthest_of_studies.resize(50);
+  EXPECT_DOUBLE_EQ(joint_p(std::array{wide, narrow})[1], 35.0 / 51);  // of 50 studies
   EXPECT_TRUE(joint_p({}).empty());
 }
 
