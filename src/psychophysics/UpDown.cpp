@@ -144,7 +144,10 @@ ConfigMistakes UpDownConfig::check_beside(double reference, bool either_sign) co
 }
 
 UpDown::UpDown(UpDownConfig config)
-    : config_(valid_config(std::move(config))), target_(config_.start) {}
+    : config_(valid_config(std::move(config))), target_(config_.start) {
+  constexpr int most = 1000;  // of a rule that usually ends by its trials
+  reversals_.reserve(static_cast<std::size_t>(std::min(config_.stop_reversals, most)));
+}
 
 double UpDown::level() const {
   return presented(target_);

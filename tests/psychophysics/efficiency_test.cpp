@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "psychophysics/BayesianKinds.h"
+#include "psychophysics/Staircases.h"
 #include "psychophysics/UpDown.h"
 
 namespace heft {
@@ -202,6 +203,23 @@ TEST(Efficiency, ChoosesALevelOfALargeGridWithoutDelay) {
         1e3 * update_s[20]);
     EXPECT_LT(level_s[20], 0.5);
   }
+}
+
+// Figures for results/procedures. Reversals are kept in memory that the constructor takes.
+TEST(Efficiency, RunsUpDownTrialsWithoutNewMemory) {
+  RandomStream stream(2, "answers");
+  std::vector<bool> positive(4096);
+  for (std::size_t i = 0; i < positive.size(); ++i) positive[i] = stream.coin(0.5);
+  const double before_s = thread_cpu_s();
+  std::size_t n = 0;
+  while (n < 2'000'000) {
+    UpDown staircase(test::paper_15g());
+    const Reversal* kept = staircase.reversals().data();
+    while (!staircase.finished()) staircase.respond(positive[n++ % positive.size()]);
+    ASSERT_EQ(staircase.reversals().data(), kept);
+  }
+  fmt::print("up-down: {:.0f} million trials a second\n",
+             1e-6 * static_cast<double>(n) / (thread_cpu_s() - before_s));
 }
 
 }  // namespace
