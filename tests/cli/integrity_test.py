@@ -185,17 +185,18 @@ class Witness(Integrity):
         for text in ("abc", "x" * 12, "A" * 12, "0" * 65):
             self.run_heft("replay", "--db", self.db, "--witness", text, expect=2)
 
-    def test_a_last_session_that_was_removed_is_missed_by_its_head_only(self):
+    def test_last_sessions_that_were_removed_are_missed_by_their_head_only(self):
         self.people(2)
         head = self.head()
-        for table in ("cube", "answer"):
-            change(self.db, f"delete from {table} where trial_id in "
-                            "(select trial_id from trial where session_id = 2)")
-        for table in ("frame", "event", "reversal", "estimate", "participant_parameter",
-                      "participant_info", "trial", "setup", "session", "seal"):
-            change(self.db, f"delete from {table} where session_id = 2")
-        self.run_heft("replay", "--db", self.db)
-        self.run_heft("replay", "--db", self.db, "--witness", head, expect=5)
+        for session in (2, 1):
+            for table in ("cube", "answer"):
+                change(self.db, f"delete from {table} where trial_id in "
+                                f"(select trial_id from trial where session_id = {session})")
+            for table in ("frame", "event", "reversal", "estimate", "participant_parameter",
+                          "participant_info", "trial", "setup", "session", "seal"):
+                change(self.db, f"delete from {table} where session_id = {session}")
+            self.run_heft("replay", "--db", self.db, expect=0 if session == 2 else 1)
+            self.run_heft("replay", "--db", self.db, "--witness", head, expect=5)
 
     def test_an_interrupted_session_is_sealed_with_the_next(self):
         self.kill_under_way(self.db)
@@ -280,9 +281,11 @@ class Withdrawal(Integrity):
         self.people(1)
         self.session(self.db, "--backup", self.folder / "copies", participant="P02")
         self.run_heft("export", self.db, "--out", self.folder / "data")
-        shutil.copy(self.db, self.folder / "lab.db.old")
+        kept = [f"lab.db.{name}" for name in ("old", "v6", "v7", "v8")]
+        for name in kept:
+            shutil.copy(self.db, self.folder / name)
         done = self.run_heft("withdraw", "--db", self.db, "--session", 2, "--yes")
-        for copy in ("copies/P02_session2", "lab.db.old", "data (10 files"):
+        for copy in ("copies/P02_session2", *kept, "data (10 files"):
             self.assertIn(copy, done.stdout)
         listed = self.run_heft("withdraw", "--db", self.db, "--session", 1, "--yes").stdout
         # First the copies, because nothing names the person if it is killed afterwards.

@@ -94,7 +94,11 @@ std::vector<std::int64_t> chosen_sessions(const LogReader& reader, const ReplayO
   std::vector<std::int64_t> ids;
   for (const SessionRow& row : reader.sessions())
     if (row.state != SessionState::withdrawn || options.verifies()) ids.push_back(row.session_id);
-  if (ids.empty()) throw Error(fmt::format("{} holds no session yet", options.db));
+  if (ids.empty())
+    throw Error(
+        fmt::format("{} holds no session{}", options.db,
+                    options.witness.empty() ? " yet" : ", but the witness is the head of one"),
+        options.witness.empty() ? ExitCode::failed : ExitCode::diverged);
   return ids;
 }
 

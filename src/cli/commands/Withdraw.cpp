@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -61,7 +62,7 @@ void confirm(const SessionFacts& facts, const WithdrawOptions& options) {
     throw Error("that is not the participant's id; nothing was removed", ExitCode::usage);
 }
 
-// Names of files by their folders: an export has a dozen.
+// Names of files by their folders: an export has a dozen, which are counted; logs are all named.
 std::map<std::string, std::vector<std::string>> by_folder(const std::set<std::string>& files) {
   std::map<std::string, std::vector<std::string>> folders;
   for (const std::string& file : files) {
@@ -71,16 +72,23 @@ std::map<std::string, std::vector<std::string>> by_folder(const std::set<std::st
   return folders;
 }
 
+void print_copies(const std::string& folder, std::vector<std::string> names) {
+  constexpr std::size_t most_named = 3;
+  const auto others = std::ranges::stable_partition(
+      names, [](const std::string& name) { return name.find(".db") != std::string::npos; });
+  for (auto name = names.begin(); name != others.begin(); ++name) print("  {}/{}\n", folder, *name);
+  if (others.size() > most_named)
+    print("  {} ({} files, such as {})\n", folder, others.size(), others.front());
+  else
+    for (const std::string& name : others) print("  {}/{}\n", folder, name);
+}
+
 void report_copies(const Found& found, const WithdrawOptions& options) {
   const std::set<std::string> copies =
       copies_of_session(found.folders, options.db, found.facts.row.header);
   print("files that hold or may hold copies, in {}:\n",
         fmt::format("{}", fmt::join(found.folders, ", ")));
-  for (const auto& [folder, names] : by_folder(copies))
-    if (names.size() > 3)
-      print("  {} ({} files, such as {})\n", folder, names.size(), names.front());
-    else
-      for (const std::string& name : names) print("  {}/{}\n", folder, name);
+  for (const auto& [folder, names] : by_folder(copies)) print_copies(folder, names);
   for (const std::string& folder : found.pictures) print("  {} (camera pictures)\n", folder);
   if (copies.empty() && found.pictures.empty()) print("  none found\n");
   print(
