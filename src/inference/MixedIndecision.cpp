@@ -296,7 +296,7 @@ OwnThreshold own_threshold(const AnswersByLevel& answers, const OwnSensitivity* 
     const Fit fit = fit_indecision(answers, {.lapse = fixed_lapse});
     if (!fit.identifiable()) return {{}, {}, fit.why};
     const FittedParameter& threshold = fit.parameter("threshold_75_g");
-    return {threshold.value, Interval{threshold.low.value_or(0), *threshold.high}, ""};
+    return {threshold.value, Interval{*threshold.low, *threshold.high}, ""};
   }
   std::string why = too_little_chosen(answers);
   if (why.empty()) why = why_no_threshold({own->low, own->high}, {largest_level_of(answers)});

@@ -45,7 +45,7 @@ class Drawing {
   }
 
   Chart chart() {
-    Chart chart{spec_.name, titled(spec_.title, summary_), "", spec_.caption, 0, 0, spec_.csv};
+    Chart chart{spec_.name, titled(spec_.title, summary_), "", spec_.caption, 0, spec_.csv};
     std::vector<PlotPanel> panels;
     if (!estimates_.empty())
       for (const std::string& name : panels_)

@@ -16,8 +16,8 @@ struct Chart {
   std::string script;     ///< gnuplot; empty: there is nothing to draw
   std::string caption{};  ///< how to read it
   int n = 0;              ///< participants, or what the caption says is counted
-  int least_n = 0;        ///< of an estimate, where they differ
   std::string csv{};      ///< the report's file with its figures
+  int least_n = 0;        ///< the fewest participants of an estimate; 0: not counted
 };
 
 /// In the order of the report; charts without data are left out.

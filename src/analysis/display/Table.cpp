@@ -120,6 +120,11 @@ std::string as_html(const Table& table) {
   return html;
 }
 
+std::vector<std::string> as_item(std::vector<std::string> lines) {
+  for (std::size_t i = 0; i < lines.size(); ++i) lines[i].insert(0, i == 0 ? "- " : "  ");
+  return lines;
+}
+
 std::string html_escaped(std::string_view text) {
   std::string escaped;
   for (char c : text) {

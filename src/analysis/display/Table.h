@@ -70,6 +70,9 @@ std::string as_html(const Table& table);
 /// for an empty text. width > 0.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width);
 
+/// Lines of an item of a list: "- " before the first, two spaces before the others.
+std::vector<std::string> as_item(std::vector<std::string> lines);
+
 /// Text with <, >, & and quotes as HTML entities.
 std::string html_escaped(std::string_view text);
 

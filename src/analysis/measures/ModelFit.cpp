@@ -81,10 +81,6 @@ void put_figures(Estimates& all, const ReferenceSensitivity& row, const Predicti
   p.n_trials = static_cast<int>(check.farthest_of_studies.size());
 }
 
-bool is_missed(const StudyEstimate& check) {
-  return *check.value < 0.05;
-}
-
 // "mean level of reversals (g) at 200 g in C2 is 80.1, predicted 91 to 120"
 std::string miss_in_words(const Estimates& all, const StudyEstimate& check) {
   const std::string reference = check.text_at("reference_g");
@@ -151,22 +147,30 @@ EstimateTable predictive_checks_table() {
           TablePlace::csv};
 }
 
-std::string model_fit_sentence(const Estimates& all) {
+std::optional<ModelVerdict> model_verdict(const Estimates& all) {
   const auto checks = estimates_of(all, predictive_p.name);
-  if (checks.empty()) return "";
-  std::vector<std::string> missed;
-  double least_p = 1;
+  if (checks.empty()) return std::nullopt;
+  ModelVerdict verdict{{}, 1, checks.front()->n_trials};
   for (const StudyEstimate* check : checks) {
-    least_p = std::min(least_p, *check->value);
-    if (is_missed(*check)) missed.push_back(miss_in_words(all, *check));
+    verdict.least_p = std::min(verdict.least_p, *check->value);
+    verdict.n_studies = std::min(verdict.n_studies, check->n_trials);
+    if (*check->value < 0.05) verdict.missed.push_back(check);
   }
-  if (missed.empty())
+  return verdict;
+}
+
+std::string model_fit_sentence(const Estimates& all) {
+  const std::optional<ModelVerdict> verdict = model_verdict(all);
+  if (!verdict) return "";
+  if (verdict->missed.empty())
     return fmt::format("Predictive check of the indecision model: passed (smallest p = {:.2f}).",
-                       least_p);
+                       verdict->least_p);
+  std::vector<std::string> missed;
+  for (const StudyEstimate* check : verdict->missed) missed.push_back(miss_in_words(all, *check));
   return fmt::format(
       "Doubt these thresholds: the indecision model does not predict what was seen "
       "(p = {:.3f}): {}.",
-      least_p, some_of(missed, 2));
+      verdict->least_p, some_of(missed, 2));
 }
 
 }  // namespace heft

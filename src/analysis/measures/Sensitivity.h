@@ -42,6 +42,14 @@ void put_model_fit(Estimates& all, std::span<const ReferenceSensitivity> rows,
                    const ComparisonTrials& trials, StaircaseRuns& runs);
 EstimateTable model_fit_table();
 EstimateTable predictive_checks_table();
+/// What the predictive checks of all rows say together.
+struct ModelVerdict {
+  std::vector<const StudyEstimate*> missed;  ///< p of the rows whose figures the model misses
+  double least_p = 1;
+  int n_studies = 0;  ///< predicted, the fewest of a row
+};
+/// None: nothing was checked.
+std::optional<ModelVerdict> model_verdict(const Estimates& all);
 /// The figures that the model misses, or that it misses none. Empty: nothing was checked.
 std::string model_fit_sentence(const Estimates& all);
 

@@ -21,16 +21,14 @@ constexpr std::size_t max_item_lines = 4;
 
 using Lines = std::vector<std::string>;
 
-// "- " and the sentence, with a hanging indent.
+// The sentence, if it is not too long.
 Lines item_lines(const std::string& sentence) {
   Lines lines = wrapped(escaped_line(sentence), screen_width - 2);
   if (lines.size() > max_item_lines) {
     lines.resize(max_item_lines);
     lines.back() = wrapped(lines.back(), screen_width - 6).front() + " ...";
   }
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    lines[i] = fmt::format("{}{}", i == 0 ? "- " : "  ", lines[i]);
-  return lines;
+  return as_item(std::move(lines));
 }
 
 // As many sentences as fit, and how many more there are.

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <variant>
 
+#include "analysis/measures/Sensitivity.h"
 #include "analysis/report/Notes.h"
 #include "inference/MixedIndecision.h"
 
@@ -208,26 +209,20 @@ std::string places(const std::vector<const StudyEstimate*>& rows) {
   return listed(all);
 }
 
+// Begins with a space; empty: nothing was checked.
 std::string model_check(const Estimates& all) {
-  const auto checks = estimates_of(all, "predictive_p");
-  if (checks.empty()) return "";
+  const std::optional<ModelVerdict> verdict = model_verdict(all);
+  if (!verdict) return "";
   std::vector<std::string> missed;
-  double least_p = 1;
-  int n_studies = checks.front()->n_trials;
-  for (const StudyEstimate* check : checks) {
-    least_p = std::min(least_p, *check->value);
-    n_studies = std::min(n_studies, check->n_trials);
-    if (*check->value < 0.05)
-      missed.push_back(fmt::format("{} g in {}", check->text_at("reference_g"), check->condition));
-  }
+  for (const StudyEstimate* check : verdict->missed)
+    missed.push_back(fmt::format("{} g in {}", check->text_at("reference_g"), check->condition));
   return fmt::format(
       " The model was checked in {} simulated studies, in which people of the fitted population "
-      "ran "
-      "the participants' staircases: {} (smallest p = {:.3f}, for all figures together).",
-      n_studies,
+      "ran the participants' staircases: {} (smallest p = {:.3f}, for all figures together).",
+      verdict->n_studies,
       missed.empty() ? "its predictions agree with the data"
                      : fmt::format("it does not predict the data at {}", listed(missed)),
-      least_p);
+      verdict->least_p);
 }
 
 std::string thresholds(const Summary& summary, Citations& citations) {
@@ -245,11 +240,38 @@ std::string thresholds(const Summary& summary, Citations& citations) {
       "for the number of participants.",
       citations.cite(Source::two_ac), citations.cite(Source::indecision), places(fitted),
       citations.cite(Source::quadrature));
-  if (const std::string check = model_check(summary.estimates); !check.empty()) text += check;
+  text += model_check(summary.estimates);
   if (!others.empty())
     text += fmt::format(" No threshold of a population is given at {}.", places(others));
   return text;
 }
+
+// Estimators that cite nothing, by a measure of theirs.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> without_source{{
+    {"forced_threshold_75",
+     " Forced choices of each participant were fitted with a cumulative normal (maximum "
+     "likelihood, with 2 % of the answers wrong however large the difference); thresholds are "
+     "geometric means over participants with Student's t intervals of the logarithms."},
+    {"same_different_threshold_75",
+     " Answers \"same\" and \"different\" of each participant were fitted with the differencing "
+     "model (maximum likelihood, 2 % lapses); thresholds are 0.6745 by its sensitivity, "
+     "summarized by geometric means over participants with Student's t intervals of the "
+     "logarithms."},
+    {"adjustment_bias",
+     " Of adjustments, bias (setting minus reference), spread (standard deviation of a "
+     "participant's settings) and start effect (slope of settings on first masses) are means "
+     "over participants with Student's t intervals; the bias in percent is a geometric mean."},
+    {"judgment_mean",
+     " Numbers answered to questions are means over participants of each one's mean, geometric "
+     "where the question takes only numbers above 0, with Student's t intervals."},
+    {"judgment_share",
+     " Shares of answers to questions are of all trials, with intervals over participants as "
+     "clusters."},
+    {"judgment_threshold",
+     " Thresholds of questions are what each participant's procedures estimated; means are "
+     "those of a log-normal distribution with censored values, with a profile-likelihood "
+     "interval."},
+}};
 
 std::string other_estimators(const Summary& summary, Citations& citations) {
   const Estimates& all = summary.estimates;
@@ -278,35 +300,8 @@ std::string other_estimators(const Summary& summary, Citations& citations) {
         "maximum likelihood of whole orders, with profile-likelihood intervals scaled to the "
         "variance over participants ({}).",
         citations.cite(Source::comparative_judgment), citations.cite(Source::adjusted_likelihood));
-  if (find_estimate(all, "forced_threshold_75"))
-    text +=
-        " Forced choices of each participant were fitted with a cumulative normal (maximum "
-        "likelihood, with 2 % of the answers wrong however large the difference); thresholds are "
-        "geometric means over participants with Student's t intervals of the logarithms.";
-  if (find_estimate(all, "same_different_threshold_75"))
-    text +=
-        " Answers \"same\" and \"different\" of each participant were fitted with the differencing "
-        "model (maximum likelihood, 2 % lapses); thresholds are 0.6745 by its sensitivity, "
-        "summarized by geometric means over participants with Student's t intervals of the "
-        "logarithms.";
-  if (find_estimate(all, "adjustment_bias"))
-    text +=
-        " Of adjustments, bias (setting minus reference), spread (standard deviation of a "
-        "participant's settings) and start effect (slope of settings on first masses) are means "
-        "over participants with Student's t intervals; the bias in percent is a geometric mean.";
-  if (find_estimate(all, "judgment_mean"))
-    text +=
-        " Numbers answered to questions are means over participants of each one's mean, geometric "
-        "where the question takes only numbers above 0, with Student's t intervals.";
-  if (find_estimate(all, "judgment_share"))
-    text +=
-        " Shares of answers to questions are of all trials, with intervals over participants as "
-        "clusters.";
-  if (find_estimate(all, "judgment_threshold"))
-    text +=
-        " Thresholds of questions are what each participant's procedures estimated; means are "
-        "those of a log-normal distribution with censored values, with a profile-likelihood "
-        "interval.";
+  for (const auto& [measure, sentence] : without_source)
+    if (find_estimate(all, measure)) text += sentence;
   if (find_estimate(all, "estimation_exponent"))
     text += fmt::format(
         " Magnitude estimates are geometric means over participants, and the exponent is the mean "

@@ -28,10 +28,7 @@ std::string absences(const Summary& summary) {
 std::string attention_text(const Summary& summary) {
   std::string text;
   for (const std::string& sentence : attention_sentences(summary))
-    for (bool is_first = true; const std::string& line : wrapped(sentence, text_width - 2)) {
-      text += fmt::format("{}{}\n", is_first ? "- " : "  ", line);
-      is_first = false;
-    }
+    for (const std::string& line : as_item(wrapped(sentence, text_width - 2))) text += line + '\n';
   return text.empty() ? "" : "\nAttention\n" + text;
 }
 
