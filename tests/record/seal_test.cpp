@@ -182,6 +182,33 @@ TEST_F(SealedLog, IsNotSealedTwiceWithTheSameContents) {
   EXPECT_FALSE(LogReader(original_).first_broken_digest(2));
 }
 
+// In the transaction that ends it, so that no interruption comes between.
+TEST_F(SealedLog, EndedSessionNeverLacksItsSeal) {
+  for (const auto& [how, state] : {std::pair{Ending::finished, SessionState::finished},
+                                   {Ending::aborted, SessionState::aborted}}) {
+    std::int64_t id = 0;
+    {
+      SessionLog log = SessionLog::start(original_, header_of("P09"));
+      id = log.session_id();
+      EXPECT_NE(LogReader(original_).seals().back().session_id, id);
+      Changes changes;
+      changes.state = state;
+      log.append({5, SessionEnded{how}}, changes, Durability::acknowledged);
+      EXPECT_EQ(LogReader(original_).seals().back().session_id, id);
+      EXPECT_EQ(log.seal(), LogReader(original_).head());
+    }
+    change("VACUUM");
+    EXPECT_TRUE(is_sound());
+    change("DELETE FROM seal WHERE seal_id = (SELECT max(seal_id) FROM seal)");
+    EXPECT_FALSE(is_sound());
+    const std::string head = LogReader(original_).head();
+    SessionLog::reopen(original_, id).add_info("age", "30");
+    EXPECT_NE(LogReader(original_).head(), head);  // sealed again with it
+    change("VACUUM");
+    EXPECT_TRUE(is_sound());
+  }
+}
+
 TEST_F(SealedLog, SessionThatWasCutOffIsSealedBeforeTheNext) {
   SessionLog::start(original_, header_of("P04"));  // as after a crash: not sealed
   EXPECT_FALSE(LogReader(original_).first_broken_seal());

@@ -166,6 +166,11 @@ std::optional<BrokenDigest> misnumbered(SQLite::Database& database) {
   return std::nullopt;
 }
 
+bool has_ended(SQLite::Database& database, std::int64_t session_id) {
+  const std::string state = header_of(database, session_id).state;
+  return state == name_of(SessionState::finished) || state == name_of(SessionState::aborted);
+}
+
 // Sessions with rows or a state that their last seals do not cover.
 std::vector<std::int64_t> unsealed_sessions(SQLite::Database& database) {
   SQLite::Statement query(
@@ -218,6 +223,10 @@ void seal_sessions(SQLite::Database& database) {
   for (const std::int64_t session_id : unsealed_sessions(database)) seal(database, session_id);
 }
 
+void seal_if_ended(SQLite::Database& database, std::int64_t session_id) {
+  if (has_ended(database, session_id)) seal(database, session_id);
+}
+
 std::optional<BrokenDigest> first_broken_seal(SQLite::Database& database) {
   std::string head;
   std::int64_t n = 0;
@@ -233,7 +242,8 @@ std::optional<BrokenDigest> first_broken_seal(SQLite::Database& database) {
   if (!missing.empty())
     return broken_seal(missing.front(), "a session that is sealed", "no such session");
   const auto not_sealed = unsealed_sessions(database);
-  if (not_sealed.size() > 1) return unsealed(not_sealed.front());
+  if (not_sealed.size() > 1 || (!not_sealed.empty() && has_ended(database, not_sealed.front())))
+    return unsealed(not_sealed.front());
   return misnumbered(database);
 }
 

@@ -29,12 +29,16 @@ std::string seal(SQLite::Database& database, std::int64_t session_id);
 /// Seals all sessions with contents that no seal covers. Call it before another session is written.
 void seal_sessions(SQLite::Database& database);
 
+/// Seals a session that has ended. Call it in the transaction that ends it, so that an ended
+/// session never lacks its seal.
+void seal_if_ended(SQLite::Database& database, std::int64_t session_id);
+
 /// In the order of sealing.
 std::vector<Seal> seals_in(SQLite::Database& database);
 
 /// The first seal that does not follow from the previous one, or whose session is missing. Also
-/// sessions without a seal: only the one written last may have rows that no seal covers. And rows
-/// whose ids leave a gap that is not a withdrawn session's.
+/// sessions without a seal: only the one written last may have rows that no seal covers, and only
+/// until it has ended. And rows whose ids leave a gap that is not a withdrawn session's.
 std::optional<BrokenDigest> first_broken_seal(SQLite::Database& database);
 
 /// By table: how many ids below its last one have no row. None, unless a session was withdrawn;

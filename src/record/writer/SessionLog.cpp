@@ -208,6 +208,7 @@ void SessionLog::Impl::commit_waiting() {
     for (const RecordedEntry& entry : waiting_) writer_.write(session_id_, entry);
     for (const auto& [key, value] : waiting_info_) writer_.write_info(session_id_, key, value);
     writer_.write_counts(session_id_);
+    seal_if_ended(file_.database(), session_id_);
     transaction.commit();
   } catch (...) {
     writer_.forget();
