@@ -236,7 +236,7 @@ SessionData read_session(const LogReader& log, std::int64_t id, DeclaredByText& 
         attempt.clone_yaw_deg[cube.slot] = turn->second;
   data.events = count_events(events);
   data.noted = noted_in(events);
-  if (!data.simulated()) data.pictures = count_pictures(events);
+  data.pictures = count_pictures(events);
   return data;
 }
 }  // namespace

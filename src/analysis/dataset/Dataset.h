@@ -46,7 +46,7 @@ struct Attempt {
 /// validated - shown - paused - lost, in seconds; none if the trial was not shown or not validated.
 std::optional<double> response_time_s(const TrialRow& trial);
 
-/// Camera pictures of a session with a participant.
+/// Camera pictures of a session; none are counted on a virtual clock.
 struct PictureCounts {
   int shown = 0, dropped = 0, late = 0;
   int doubled = 0;  ///< with a second print of a tag in view
