@@ -154,7 +154,7 @@ void add_output_options(Command& command, SessionOptions& given,
   const auto read = [&events](const std::string& text) { events = parse_event_target(text); };
   command.add_option("--events", ReadsText{read},
                      "udp:HOST:PORT, fifo:PATH or serial:DEVICE: one line of JSON for each event, "
-                     "once it is logged, with its t_s and UTC; the session never waits for it");
+                     "with its t_s and UTC; the session never waits for it");
 }
 
 void print_camera_file(const SessionOptions& given, const SessionConfig& config) {
@@ -183,6 +183,9 @@ void add_unverified(Command& command, bool& unverified) {
 
 LogIntegrity integrity_of(const std::vector<std::string>& databases,
                           const std::vector<std::int64_t>& session_ids, bool unverified) {
+  for (const std::string& database : databases)
+    if (LogReader(database).session_ids().empty())
+      throw Error(fmt::format("{} holds no session yet", database));
   if (unverified) return {false, "NOT VERIFIED"};
   ProgressBar bar("verifying");
   std::vector<std::string> heads;

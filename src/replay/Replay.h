@@ -43,10 +43,10 @@ Verification verify_session(const LogReader& reader, std::int64_t session_id,
 /// Everything except the simulation of frames.
 Verification verify_rows(const LogReader& reader, std::int64_t session_id);
 
-/// The first fault in the chain of seals, in words.
-std::optional<std::string> fault_of_chain(const LogReader& reader);
+/// The first fault of the schema or the chain of seals, in words. It takes milliseconds.
+std::optional<std::string> fault_of_structure(const LogReader& reader);
 
-/// A log as a whole: pages, constraints, references and the chain of seals.
+/// A log as a whole: pages, constraints, references, schema and the chain of seals.
 /// @return a message for each fault
 std::vector<std::string> faults_of_file(const LogReader& reader, const std::string& db);
 

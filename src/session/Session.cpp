@@ -91,9 +91,7 @@ SessionResult close(const Engine& engine, RunEnd end, SessionLog& log, EventSink
 // New events must follow an unchanged log.
 void refuse_changed_log(const LogReader& reader, const LoggedSession& session) {
   std::string why;
-  if (const auto foreign = reader.foreign_objects(); !foreign.empty())
-    why = fmt::format("its schema has an unknown object: {}", foreign.front());
-  else if (const auto fault = fault_of_chain(reader))
+  if (const auto fault = fault_of_structure(reader))
     why = *fault;
   else if (const Verification found = verify_rows(reader, session.row.session_id); found.first)
     why = fmt::format("{} is {}, but its events give {}", found.first->what, found.first->logged,

@@ -148,10 +148,7 @@ TEST_F(TamperedReplay, WhatNoLogHoldsIsNamed) {
         "CREATE TRIGGER loot AFTER INSERT ON event BEGIN DELETE FROM answer; END"}) {
     store(session());
     change(foreign);
-    const Verification found = verified();
-    ASSERT_TRUE(found.first) << foreign;
-    EXPECT_EQ(found.first->what, "the file's schema");
-    EXPECT_THAT(found.first->logged, HasSubstr("loot"));
+    EXPECT_THAT(fault_of_structure(LogReader(file)).value_or(""), HasSubstr("loot")) << foreign;
   }
 }
 

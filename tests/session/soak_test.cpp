@@ -152,7 +152,7 @@ TEST_F(Day, MemoryStaysFlatAndNothingDrifts) {
         1e3 * *quantile(writes_s, 0.999), 1e3 * std::ranges::max(writes_s), drift_s);
   const LogReader reader(path);
   EXPECT_EQ(static_cast<int>(reader.sessions().size()), n_sessions);
-  EXPECT_FALSE(fault_of_chain(reader));
+  EXPECT_FALSE(fault_of_structure(reader));
   for (const SessionRow& session : reader.sessions()) {
     const Verification found = verify_rows(reader, session.session_id);
     EXPECT_FALSE(found.first) << session.session_id << ": " << found.first->what << " is "

@@ -9,6 +9,7 @@
 #include "cli/Commands.h"
 #include "cli/console/Terminal.h"
 #include "cli/reports/Reports.h"
+#include "replay/Replay.h"
 #include "session/Session.h"
 
 namespace heft::cli {
@@ -105,6 +106,7 @@ std::string in_columns(std::vector<Line> lines) {
 void list(const std::string& db, bool json) {
   refuse_special_file(db);
   const LogReader reader(db);
+  warn_of_fault(fault_of_structure(reader), db);
   std::vector<SessionFacts> sessions;
   for (const SessionRow& row : reader.sessions()) sessions.push_back(facts_of(reader, row));
   if (json) {

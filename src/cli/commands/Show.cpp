@@ -17,6 +17,7 @@
 #include "cli/console/Terminal.h"
 #include "cli/reports/Reports.h"
 #include "record/schema/EventRow.h"
+#include "replay/Replay.h"
 #include "session/Session.h"
 
 namespace heft::cli {
@@ -61,6 +62,7 @@ Shown shown_of(const std::string& db, std::optional<std::int64_t> session_id) {
   if (sessions.empty()) throw Error(fmt::format("{} holds no session yet", db));
   const SessionRow row = session_id ? reader.session(*session_id) : sessions.back();
   const std::int64_t id = row.session_id;
+  warn_of_fault(fault_of_log(reader, db, {id}, [](double) {}), db);
   return {facts_of(reader, row), reader.events(id), reader.trials(id), reader.setups(id)};
 }
 

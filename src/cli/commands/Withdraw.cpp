@@ -15,6 +15,7 @@
 #include "cli/console/Terminal.h"
 #include "cli/reports/Reports.h"
 #include "record/writer/SessionLog.h"
+#include "replay/Replay.h"
 #include "session/Session.h"
 
 namespace heft::cli {
@@ -24,7 +25,7 @@ struct WithdrawOptions {
   std::string db;
   std::optional<std::int64_t> session;
   std::vector<std::string> folders;
-  bool yes = false;
+  bool yes = false, unverified = false;
 };
 
 // What is about to be removed, and where copies may be.
@@ -104,12 +105,22 @@ void refuse_if_left_in_file(const std::string& why, const WithdrawOptions& optio
                   *options.session, options.db, why, shell_quoted(options.db), *options.session));
 }
 
+// What is removed cannot be inspected afterwards, and the rest is sealed as it is.
+void require_sound(const std::string& db) {
+  if (const auto fault = fault_of_log(LogReader(db), db, {}, [](double) {}))
+    throw Error(fmt::format("{} is not verified: {}; nothing was removed. Inspect it with heft "
+                            "replay --db {}; --unverified removes the session nevertheless",
+                            db, *fault, shell_quoted(db)),
+                ExitCode::diverged);
+}
+
 void withdraw(const WithdrawOptions& options) {
   if (!options.session)
     throw Error(fmt::format("--session N is required: heft list --db {} shows them",
                             shell_quoted(options.db)),
                 ExitCode::usage);
   refuse_special_file(options.db);
+  if (!options.unverified) require_sound(options.db);
   const Found found = found_in(LogReader(options.db), options);
   if (found.facts.row.state == SessionState::withdrawn) {
     refuse_if_left_in_file(finish_withdrawals(options.db), options);
@@ -138,6 +149,8 @@ void add_withdraw(Command& app) {
                      "another folder to search for copies, beside the log's and its backups'; "
                      "repeat for several");
   command.add_flag("--yes", options->yes, "do not ask");
+  command.add_flag("--unverified", options->unverified,
+                   "remove the data even if the log was changed or is damaged");
   command.does([options] { withdraw(*options); });
 }
 

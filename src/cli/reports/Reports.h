@@ -44,6 +44,9 @@ std::string trials_text(const SessionFacts& facts);
 
 nlohmann::ordered_json as_json(const SessionFacts& facts);
 
+/// Warns of a log that heft analyse refuses. @param fault none: nothing is wrong
+void warn_of_fault(const std::optional<std::string>& fault, const std::string& db);
+
 /// Possible next steps with a log of these sessions: one line each, with commands to copy.
 std::vector<std::string> next_steps(const std::vector<SessionFacts>& sessions,
                                     const std::string& db);

@@ -74,6 +74,13 @@ nlohmann::ordered_json as_json(const SessionFacts& facts) {
   return json;
 }
 
+void warn_of_fault(const std::optional<std::string>& fault, const std::string& db) {
+  if (fault)
+    say("heft: WARNING: {} was changed or damaged: {}. heft analyse refuses it. Inspect it with: "
+        "heft replay --db {}\n",
+        db, *fault, shell_quoted(db));
+}
+
 std::vector<std::string> next_steps(const std::vector<SessionFacts>& sessions,
                                     const std::string& db) {
   const std::string log = shell_quoted(db);

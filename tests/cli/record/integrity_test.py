@@ -83,6 +83,35 @@ class Figures(LogTest):
         except (sqlite3.Error, UnicodeDecodeError, OverflowError) as error:
             return str(error)
 
+    def test_lists_warn_of_a_changed_log(self):
+        self.people(2)
+        for command in ("list", "show"):
+            self.assertNotIn("WARNING", self.run_heft(command, "--db", self.db).stderr)
+        for change_of_log, commands in {
+                "update answer set t_s = t_s + 1 where rowid = (select max(rowid) from answer)":
+                    ("show",),
+                "delete from seal where seal_id = 2": ("list", "show"),
+                "create view loot as select 1": ("list", "show")}.items():
+            db = self.folder / "changed.db"
+            shutil.copy(self.db, db)
+            change(db, change_of_log)
+            self.refuses(db, change_of_log)
+            for command in commands:
+                for words in ((), ("--json",)):
+                    done = self.run_heft(command, "--db", db, *words)
+                    self.assertIn("WARNING", done.stderr, f"{command}: {change_of_log}")
+
+    def test_a_log_without_sessions_has_no_figures(self):
+        empty = self.folder / "empty.db"
+        empty.touch()
+        self.people(1)
+        for words in (["analyse", "--db", empty], ["analyse", "--db", empty, "--unverified"],
+                      ["analyse", "--db", self.db, "--db", empty],
+                      ["export", empty, "--out", self.folder / "refused"]):
+            done = self.run_heft(*words, expect=1)
+            self.assertEqual(done.stdout, "")
+            self.assertIn("empty.db holds no session yet", done.stderr)
+
     def test_a_refusal_to_resume_counts_rows_and_its_command_can_be_copied(self):
         db = self.folder / "my lab.db"
         self.kill_under_way(db)

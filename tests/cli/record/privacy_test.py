@@ -93,6 +93,18 @@ class Withdrawal(LogTest):
         self.run_heft("withdraw", "--db", self.db, "--session", 1, "--yes")
         self.run_heft("withdraw", "--db", self.db, "--session", 1, "--yes", expect=2)
 
+    def test_a_changed_log_is_left_as_it_is(self):
+        self.people(2)
+        change(self.db, "update trial set level_g = 1 where trial_id = 1")
+        withdraw = ("withdraw", "--db", self.db, "--session", 2, "--yes")
+        refused = self.run_heft(*withdraw, expect=5)
+        self.assertIn("session 1", refused.stderr)
+        self.assertIn("--unverified", refused.stderr)
+        self.assertEqual(query(self.db, "select distinct state from session"), [("finished",)])
+        self.run_heft(*withdraw, "--unverified")
+        self.assertEqual(query(self.db, "select state from session"),
+                         [("finished",), ("withdrawn",)])
+
     def test_a_removal_by_hand_is_noticed(self):
         self.people(2)
         copy = self.folder / "copy.db"
