@@ -236,12 +236,12 @@ void AnnouncingSink::announce(const Event& event, const Changes& changes) {
 }
 
 // A buffered event, such as a contact, is on disk up to a second later: too late for a trigger. It
-// is announced immediately, and again when it is logged. Others are announced once, when they are
-// logged, and never if the log refuses them.
+// is announced immediately, and again when it is logged; so is a reset, which can be a trigger,
+// too. Others are announced once, when they are logged, and never if the log refuses them.
 void AnnouncingSink::append(const Event& event, const Changes& changes, Durability durability) {
-  const bool is_buffered = durability == Durability::buffered;
-  if (is_buffered) outlet_.send(line_of(event, changes, false));
-  waiting_.push_back(line_of(event, changes, is_buffered ? std::optional(true) : std::nullopt));
+  const bool at_once = durability == Durability::buffered || event.is<CubesReset>();
+  if (at_once) outlet_.send(line_of(event, changes, false));
+  waiting_.push_back(line_of(event, changes, at_once ? std::optional(true) : std::nullopt));
   try {
     log_.append(event, changes, durability);
   } catch (const LogBusy&) {

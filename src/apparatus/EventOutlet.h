@@ -58,8 +58,8 @@ class EventOutlet {
   std::int64_t n_sent_ = 0, n_dropped_ = 0;
 };
 
-/// Passes events to a log, and sends each as a line of JSON once it is on disk. Buffered events are
-/// also sent immediately, with "logged":false.
+/// Passes events to a log, and sends each as a line of JSON once it is on disk. Buffered events and
+/// resets are also sent immediately, with "logged":false.
 class AnnouncingSink final : public EventSink {
  public:
   AnnouncingSink(EventSink& log, EventOutlet& outlet, std::int64_t session_id,

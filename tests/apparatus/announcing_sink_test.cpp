@@ -96,6 +96,17 @@ TEST_F(AnnouncedEvents, AreALineEachOnceTheyAreOnDisk) {
   EXPECT_THAT(heard(), HasSubstr(R"("kind":"sealed","head":"1a2b"})"));
 }
 
+// A reset that a person asks for is on disk before the cubes move.
+TEST_F(AnnouncedEvents, ResetsAreSentBeforeTheyAreOnDisk) {
+  listen();
+  log_.busy = true;
+  EXPECT_THROW(sink().append({1.5, CubesReset{}}, {}, Durability::acknowledged), LogBusy);
+  EXPECT_THAT(heard(), HasSubstr(R"("logged":false})"));
+  log_.busy = false;
+  sink().flush();
+  EXPECT_THAT(heard(), HasSubstr(R"("logged":true})"));
+}
+
 TEST_F(AnnouncedEvents, ThatTheLogKeepsForLaterAreSentThen) {
   listen();
   log_.busy = true;

@@ -57,9 +57,10 @@ struct TappedSession {
     engine.apply({0, setup});
   }
 
-  RunEnd run() {
+  RunEnd run() { return run_into(sink); }
+  RunEnd run_into(EventSink& log) {
     return Runner(
-               {*protocol, engine, sink, pictures, *hand, screen, clock, true, &texts, {}, before},
+               {*protocol, engine, log, pictures, *hand, screen, clock, true, &texts, {}, before},
                {})
         .run();
   }

@@ -147,5 +147,41 @@ TEST(Standstill, EndsAContactBeforeIt) {
   }
 }
 
+// Notes when contacts arrive. A contact's time is that of its picture, which was captured before.
+class WhenTouched final : public EventSink {
+ public:
+  void append(const Event& event, const Changes&, Durability) override {
+    if (event.is<CubeTouch>()) waiting_s_.push_back(made_up_s);
+  }
+  void add_frame(const FrameRow& frame) override {
+    for (const double at_s : std::exchange(waiting_s_, {}))
+      delays_s.push_back(at_s - started_s - *frame.simulated_s);
+  }
+  void add_info(const std::string&, const std::string&) override {}
+  void flush() override {}
+
+  const double started_s = made_up_s;
+  std::vector<double> delays_s;  ///< from the end of the simulation that found the contact
+
+ private:
+  std::vector<double> waiting_s_;
+};
+
+// So that triggers do not wait for the picture.
+TEST(Contacts, ArriveBeforeTheirPictureIsDrawn) {
+  std::size_t n = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    TappedSession session(testing::quick_protocol(),
+                          load_texts(source_folder() + "/protocols/texts/en.toml"), Tapper(seed));
+    WhenTouched touched;
+    ASSERT_EQ(session.run_into(touched), RunEnd::finished);
+    for (const double delay_s : touched.delays_s) {  // negative: ended by an answer in between
+      EXPECT_LE(delay_s, 1e-4);
+      n += delay_s > -1e-4;
+    }
+  }
+  EXPECT_GT(n, 10u);
+}
+
 }  // namespace
 }  // namespace heft
