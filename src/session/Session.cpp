@@ -72,8 +72,8 @@ RunEnd run_with(Equipment& equipment, Engine& engine, EventSink& sink, const Run
   return Runner(parts, runner).run();
 }
 
-// Everything is on disk. If another process locks the database now, the next session seals this
-// one.
+// Everything is on disk, and a session that ended is sealed. If another process locks the database
+// when a session is left, the next one seals it.
 // @return the log's head; empty if it is locked
 std::string sealed(SessionLog& log) try { return log.seal(); } catch (const LogBusy&) {
   return "";

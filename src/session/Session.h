@@ -33,7 +33,7 @@ struct SessionResult {
   std::int64_t session_id = 0;
   double duration_s = 0;  ///< session time
   int n_completed = 0;
-  std::string head;  ///< of the log, after the session; empty: locked, the next one seals it
+  std::string head;  ///< of the log, after the session; empty: left in a locked log
 };
 
 /// A new seed, 0...2^63-1, from the operating system.

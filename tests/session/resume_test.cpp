@@ -203,25 +203,32 @@ TEST_F(Resumed, ASessionWithoutATrialSaysWhatItIsRunWith) {
   expect_verified();
 }
 
-// Another program locks the database when the last answer has been written.
-TEST_F(Resumed, FinishedSessionInALockedLogIsSealedByTheNext) {
+// Another program locks the database when the last event has been written.
+TEST_F(Resumed, FinishedSessionInALockedLogIsSealedAndOneThatWasLeftIsByTheNext) {
   std::optional<SQLite::Database> other;
-  RunnerOptions runner;
-  runner.progress = [&](const Engine& engine) {
-    if (engine.state() != SessionState::finished) return;
-    other.emplace(request.db, SQLite::OPEN_READWRITE);
-    other->exec("BEGIN IMMEDIATE");
+  const auto run_until_locked = [&](RunnerOptions runner, SessionState locked_in) {
+    runner.progress = [&other, locked_in, this, before = runner.progress](const Engine& engine) {
+      if (before) before(engine);
+      if (engine.state() != locked_in) return;
+      other.emplace(request.db, SQLite::OPEN_READWRITE);
+      other->exec("BEGIN IMMEDIATE");
+    };
+    SessionResult result = start_session(request, runner);
+    other.reset();
+    EXPECT_EQ(LogReader(request.db).session(1).state, locked_in);
+    return result;
   };
-  const SessionResult result = start_session(request, runner);
-  EXPECT_EQ(result.end, RunEnd::finished);
-  EXPECT_EQ(result.head, "");
-  other.reset();
-  EXPECT_EQ(LogReader(request.db).session(1).state, SessionState::finished);
+  const SessionResult finished = run_until_locked({}, SessionState::finished);
+  EXPECT_EQ(finished.end, RunEnd::finished);
+  EXPECT_EQ(finished.head, LogReader(request.db).head());
+  EXPECT_NE(finished.head, "");
+  std::filesystem::remove(request.db);
+  EXPECT_EQ(run_until_locked(until(2), SessionState::paused).head, "");
   EXPECT_TRUE(LogReader(request.db).seals().empty());
   request.participant = "another";
   EXPECT_NE(start_session(request, {}).head, "");
   EXPECT_EQ(LogReader(request.db).seals().front().session_id, 1);
-  expect_verified();
+  EXPECT_EQ(fault_of_structure(LogReader(request.db)), std::nullopt);
 }
 
 TEST_F(Resumed, IsNoLogThatIsNotAsItWasWritten) {
