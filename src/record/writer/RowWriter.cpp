@@ -54,6 +54,8 @@ void RowWriter::insert(const std::string& sql, const Row& row, const Keys&... ke
 
 void RowWriter::forget() {
   last_attempt_.reset();
+  changed_trial_.reset();
+  changed_cubes_.clear();
   tasks_.clear();
   n_new_events_ = n_new_frames_ = 0;
   chain_.forget();
@@ -85,7 +87,8 @@ void RowWriter::write_info_digest(std::int64_t session_id) {
   run(statement(sql), info_digest(database_, session_id), session_id);
 }
 
-void RowWriter::write_counts(std::int64_t session_id) {
+void RowWriter::write_rest(std::int64_t session_id) {
+  write_changed(session_id);
   static const std::string sql =
       "UPDATE session SET n_events = n_events + ?, n_frames = n_frames + ? WHERE session_id = ?";
   const int events = std::exchange(n_new_events_, 0), frames = std::exchange(n_new_frames_, 0);
@@ -140,10 +143,10 @@ std::optional<std::int64_t> RowWriter::setup_id(std::int64_t session_id, int set
 
 void RowWriter::write_event(std::int64_t session_id, const RecordedEvent& recorded) {
   const auto& [event, changes] = recorded;
-  if (changes.trial) write_trial(session_id, *changes.trial);
+  if (changes.trial) take_trial(session_id, *changes.trial);
   write_event_row(session_id, changes.attempt_index, event);
   if (changes.setup) write_setup(session_id, database_.getLastInsertRowid(), *changes.setup);
-  for (const CubeRow& cube : changes.cubes) write_cube(session_id, cube);
+  for (const CubeRow& cube : changes.cubes) take_cube(session_id, cube);
   static const std::string answer = keyed_insert<AnswerRow>("answer", "trial_id"),
                            reversal = keyed_insert<ReversalRow>("reversal", "session_id, trial_id"),
                            estimate = keyed_insert<EstimateRow>("estimate", "session_id"),
@@ -188,6 +191,31 @@ void RowWriter::write_setup(std::int64_t session_id, std::int64_t event_id,
       keyed_insert<SessionConfig>("setup", "session_id, from_event_id, setup_index");
   static const std::string n_before = "SELECT count(*) FROM setup WHERE session_id = ?";
   insert(sql, setup, session_id, event_id, first_cell(n_before, session_id).value() + 1);
+}
+
+// The first row of an attempt is written immediately, because others refer to it.
+void RowWriter::take_trial(std::int64_t session_id, const TrialRow& trial) {
+  if (find_attempt(session_id, trial.attempt_index)) {
+    if (changed_trial_ && changed_trial_->attempt_index != trial.attempt_index)
+      write_changed(session_id);
+    changed_trial_ = trial;
+  } else {
+    write_changed(session_id);
+    write_trial(session_id, trial);
+  }
+}
+
+void RowWriter::take_cube(std::int64_t session_id, const CubeRow& cube) {
+  if (!changed_cubes_.empty() && changed_cubes_.begin()->second.attempt_index != cube.attempt_index)
+    write_changed(session_id);
+  changed_cubes_[cube.slot] = cube;
+}
+
+// The trial comes last: its plan has the newest masses.
+void RowWriter::write_changed(std::int64_t session_id) {
+  for (const auto& [slot, cube] : std::exchange(changed_cubes_, {})) write_cube(session_id, cube);
+  if (const auto trial = std::exchange(changed_trial_, std::nullopt))
+    write_trial(session_id, *trial);
 }
 
 void RowWriter::write_trial(std::int64_t session_id, const TrialRow& trial) {

@@ -79,7 +79,7 @@ void SessionLog::Impl::start(const SessionHeader& header,
     session_id_ = writer_.write_session(header);
     if (first) {
       writer_.write(session_id_, *first);
-      writer_.write_counts(session_id_);
+      writer_.write_rest(session_id_);
     }
     transaction.commit();
   } catch (const std::exception& error) {
@@ -149,8 +149,8 @@ void SessionLog::Impl::flush() {
 
 std::string SessionLog::Impl::seal() {
   flush();
-  try {
-    SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
+  try {  // a session that ended is sealed already: nothing is written
+    SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::DEFERRED);
     std::string head = heft::seal(file_.database(), session_id_);
     transaction.commit();
     return head;
@@ -207,7 +207,7 @@ void SessionLog::Impl::commit_waiting() {
     SQLite::Transaction transaction(file_.database(), SQLite::TransactionBehavior::IMMEDIATE);
     for (const RecordedEntry& entry : waiting_) writer_.write(session_id_, entry);
     for (const auto& [key, value] : waiting_info_) writer_.write_info(session_id_, key, value);
-    writer_.write_counts(session_id_);
+    writer_.write_rest(session_id_);
     seal_if_ended(file_.database(), session_id_);
     transaction.commit();
   } catch (...) {
@@ -294,7 +294,7 @@ class SessionArchive::Impl {
     if (!std::exchange(are_sealed_, true)) seal_sessions(file_.database());
     const std::int64_t session_id = writer_.write_session(session.header());
     for (const RecordedEntry& entry : session.entries()) writer_.write(session_id, entry);
-    writer_.write_counts(session_id);
+    writer_.write_rest(session_id);
     seal(file_.database(), session_id);
     transaction.commit();
     file_.check_in_place();
