@@ -68,6 +68,24 @@ TEST_F(ReportFolder, PageIsSelfContainedAndEscaped) {
   EXPECT_THAT(read("staircases.svg"), HasSubstr("Staircases of session 1"));
 }
 
+// Names come from protocols and logs of anybody.
+TEST_F(ReportFolder, NamesAreNoCommandsOfGnuplot) {
+  const std::string commands =
+      fmt::format("x\nsystem('touch {0}/harm')\n#`touch {0}/harm`\"'.system('touch {0}/harm').'",
+                  folder.string());
+  SessionData data = session(1, commands);
+  data.session.header.protocol_name = commands;
+  add_introduction(data, 1);
+  add_sortings(data, commands, "correct", 4);
+  add_staircase(data, commands, 15, 100);
+  add_staircase(data, "800g", 800, 700);
+  for (Attempt& attempt : data.attempts) attempt.trial.plan.condition = commands;
+  const ReportResult result = write_report(summarize({"x.db", {data}}, commands), folder);
+  if (!result.charts_drawn) GTEST_SKIP() << "gnuplot is not installed";
+  EXPECT_FALSE(fs::exists(folder / "harm"));
+  EXPECT_THAT(result.files, Contains("staircases.svg"));
+}
+
 TEST_F(ReportFolder, AnswersFirstAndHoldsWhatAReviewerAsksFor) {
   SessionData data = session(1, "a");
   add_sortings(data, "C2", "correct", 8);

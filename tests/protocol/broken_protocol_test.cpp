@@ -87,6 +87,8 @@ TEST_P(BrokenProtocol, IsOneMistakeAtItsPlace) {
 
 const Broken settings[] = {
     {"no_title", {"title = \"Everything\"", "^"}, {"the file lacks \"title\""}},
+    {"title_of_two_lines", {"\"Everything\"", "^\"a\\nb\""}, {"title is", "a text on one line"}},
+    {"name_with_controls", {"\"jnd\"", "^\"j\\u001bnd\""}, {"name is", "without control char"}},
     {"unknown_key", {"void_after_s", "^void_afer_s"}, {"\"void_after_s\"?"}},
     {"unknown_table",
      {"[coupling]\n", "[^coupler]\n"},

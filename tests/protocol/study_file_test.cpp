@@ -180,8 +180,8 @@ TEST(BrokenStudy, IsRefusedAtItsPlace) {
 
 TEST(BrokenStudy, InvalidIdsAreRefused) {
   EXPECT_THAT(mistakes_in(study("id_prefix = \"P\\u0007\"\n")),
-              HasSubstr("lab/STUDY.toml:5:13: id_prefix \"P \" is invalid: the id contains the "
-                        "control character U+0007"));
+              HasSubstr("lab/STUDY.toml:5:13: id_prefix is \"P \", expected a text on one line, "
+                        "without control characters"));
   EXPECT_THAT(mistakes_in(study("id_prefix = \"" + std::string(199, 'x') + "\"\n")),
               HasSubstr("has 201 bytes"));
   EXPECT_THAT(mistakes_in(study("id_prefix = \" P\"\n")), HasSubstr("begins with a blank"));

@@ -16,6 +16,7 @@
 #include "analysis/report/Notes.h"
 #include "analysis/report/Tables.h"
 #include "base/Error.h"
+#include "base/files/Printable.h"
 #include "base/files/TextFile.h"
 
 namespace heft {
@@ -61,7 +62,7 @@ class Folder {
 
   /// @return the drawn SVG; none without gnuplot
   std::optional<std::string> draw(const Chart& chart) {
-    write(chart.name + ".gp", fmt::format("# {}\n", chart.title) + chart.script);
+    write(chart.name + ".gp", fmt::format("# {}\n", escaped_line(chart.title)) + chart.script);
     if (!run_gnuplot(path_.string(), chart.name + ".gp")) return std::nullopt;
     files_.push_back(chart.name + ".svg");
     return read_text_file(path_ / files_.back());

@@ -14,9 +14,12 @@ namespace heft::cli {
 namespace {
 constexpr int left_px = 72, group_px = 118, plot_px = 320, bottom_px = 112, key_line_px = 22;
 
+// For gnuplot, on two lines.
 std::string group_name(const GroupScores& group) {
-  return fmt::format("{}\\n{}{}", group.task, group.condition,
-                     group.reference_g ? fmt::format(", {:g} g", *group.reference_g) : "");
+  return fmt::format("{}.\"\\n\".{}", gnuplot_quoted(group.task),
+                     gnuplot_quoted(group.reference_g ? fmt::format("{}, {:g} g", group.condition,
+                                                                    *group.reference_g)
+                                                      : group.condition));
 }
 
 // "x score low high own": beside one another in their group.
@@ -46,7 +49,7 @@ std::string script_of(const JudgedLog& log, const std::string& file) {
            log.judgments.trials.size(), log.repeats, log.seed)});
   std::string tics, chance, terms;
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    tics += fmt::format("{}\"{}\" {}", i == 0 ? "" : ", ", group_name(groups[i]), i);
+    tics += fmt::format("{}{} {}", i == 0 ? "" : ", ", group_name(groups[i]), i);
     for (const double side : {-0.45, 0.45})
       chance += fmt::format("{} {} {}\n", static_cast<double>(i) + side, groups[i].chance.value,
                             groups[i].shares.value);

@@ -82,7 +82,7 @@ std::string trimmed(const std::string& text) {
 std::string read_text(TableReader& table, std::string_view key) {
   std::string text;
   table.require({key});
-  table.read(key, text);
+  table.read_lines(key, text);
   text = trimmed(text);
   if (text.empty() && table.has(key) && table.good({key}))
     table.mistake(key, fmt::format("{} is empty, expected a text for the participant", key));

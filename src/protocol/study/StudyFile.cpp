@@ -39,11 +39,6 @@ void read_language(TableReader& table, const std::string& file, std::optional<st
   field = language.ends_with(".toml") ? beside(file, language) : language;
 }
 
-void check_line(TableReader& table, std::string_view key, const std::string& text) {
-  if (text.find_first_of("\n\r\t") != std::string::npos)
-    table.mistake(key, fmt::format("{} has line ends or tabs, expected one line", key));
-}
-
 // Named blocks, each once.
 void check_blocks(TableReader& table, std::string_view key,
                   const std::vector<std::string>& blocks) {
@@ -136,7 +131,6 @@ StudyGroup read_group(TableReader& table, const std::string& file, const StudyGr
   read_path(table, "protocol", file, protocol);
   read_language(table, file, group.language);
   if (protocol) group.protocol = *protocol;
-  check_line(table, "name", group.name);
   table.close();
   return group;
 }
@@ -160,7 +154,6 @@ class StudyReader {
     std::optional<std::string> protocol;
     reader_.require({"study", "participants"});
     reader_.read("study", plan_.name);
-    check_line(reader_, "study", plan_.name);
     reader_.read("participants", plan_.participants, {1, most_participants});
     reader_.read("seed", plan_.seed, {0, std::numeric_limits<std::int64_t>::max()});
     reader_.read("id_prefix", plan_.id_prefix);
@@ -174,7 +167,6 @@ class StudyReader {
     read_path(reader_, "db", file_, plan_.db);
     read_path(reader_, "backup", file_, plan_.backup);
     reader_.read("operator", plan_.run_by);
-    if (!plan_.run_by.empty()) check_line(reader_, "operator", plan_.run_by);
     study_.protocol = protocol.value_or("");
   }
 

@@ -19,6 +19,17 @@ std::optional<std::string> meant(std::string_view written,
   if (longer != candidates.end()) return std::string(*longer);
   return nearest_name(written, candidates);
 }
+
+bool is_filled(const std::string* text) {
+  return text && text->find_first_not_of(" \t") != std::string::npos;
+}
+
+// Names go into tables, charts and commands.
+bool is_line(const std::string& text) {
+  return escaped_line(text) == text;
+}
+constexpr auto a_text = "a text in quotes that is not empty";
+constexpr auto a_line = "a text on one line, without control characters";
 }  // namespace
 
 TableReader::TableReader(const TomlTable& root, Mistakes& mistakes)
@@ -141,10 +152,22 @@ void TableReader::read(std::string_view key, std::string& field) {
   const TomlEntry* entry = take(key);
   if (!entry) return;
   const auto* value = std::get_if<std::string>(&entry->node.value);
-  if (value && value->find_first_not_of(" \t") != std::string::npos)
+  if (!is_filled(value))
+    refuse(entry->node, key, a_text);
+  else if (!is_line(*value))
+    refuse(entry->node, key, a_line);
+  else
+    field = *value;
+}
+
+void TableReader::read_lines(std::string_view key, std::string& field) {
+  const TomlEntry* entry = take(key);
+  if (!entry) return;
+  const auto* value = std::get_if<std::string>(&entry->node.value);
+  if (is_filled(value))
     field = *value;
   else
-    refuse(entry->node, key, "a text in quotes that is not empty");
+    refuse(entry->node, key, a_text);
 }
 
 std::optional<std::string> TableReader::read_name(std::string_view key,
@@ -221,10 +244,12 @@ void TableReader::read(std::string_view key, std::vector<std::string>& field) {
   std::vector<std::string> texts;
   for (const TomlNode& element : *array) {
     const auto* text = std::get_if<std::string>(&element.value);
-    if (text && text->find_first_not_of(" \t") != std::string::npos)
-      texts.push_back(*text);
-    else
+    if (!is_filled(text))
       refuse(element, key, expected);
+    else if (!is_line(*text))
+      refuse(element, key, a_line);
+    else
+      texts.push_back(*text);
   }
   if (good({key})) field = std::move(texts);
 }

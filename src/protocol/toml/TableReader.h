@@ -34,12 +34,15 @@ class TableReader {
   void read(std::string_view key, int& field, const WholeRange& range = {});
   void read(std::string_view key, std::uint64_t& field, const WholeRange& range);
   void read(std::string_view key, bool& field);
+  /// A text on one line.
   void read(std::string_view key, std::string& field);
+  /// A text of several lines.
+  void read_lines(std::string_view key, std::string& field);
   /// One or more numbers.
   void read(std::string_view key, std::vector<double>& field, const Range& range = any_number);
   /// A number, a list, {from, to, step} or {from, to, n, spacing = "linear"|"log"}.
   void read(std::string_view key, ValueGrid& field, const Range& range = any_number);
-  /// One or more texts, none of them empty.
+  /// One or more texts on one line each, none of them empty.
   void read(std::string_view key, std::vector<std::string>& field);
   void read(std::string_view key, Eigen::Vector2d& field, const Range& range = any_number);
   void read(std::string_view key, Eigen::Vector3d& field, const Range& range = any_number);
