@@ -65,7 +65,9 @@ def finished_event(staircase):
     event = {"event": "finished", "staircase": staircase.name, "reason": staircase.stopped_by,
              "estimate": estimate.value, "low": estimate.low, "high": estimate.high}
     if staircase.posterior:
-        event |= {"sd": estimate.sd, "censored": estimate.censored}
+        parameters = {name: one._asdict() for name, one in staircase.posterior.items()}
+        event |= {"sd": estimate.sd, "censored": estimate.censored,
+                  "parameters": None if estimate.value is None else parameters}
     return event | {"n_trials": staircase.n_trials}
 
 

@@ -65,8 +65,9 @@ void add_procedure(Command& app) {
       R"(Bayesian kinds add "sd" and "censored" to finished. The estimate is null if)",
       R"(the posterior is not inside its grid ("above": only low is known, "below":)",
       R"(only high) or if the answers do not depend on the level ("indeterminate").)",
-      "With --posterior they write after each answer, with 95 % intervals and the",
-      "mode of all parameters together:",
+      R"(Otherwise "parameters" has each parameter's mean, SD, mode and 95 % interval.)",
+      "With --posterior they write these after each answer; the mode is that of all",
+      "parameters together:",
       R"(  > {"event":"posterior","staircase":"15g","trial":3,"parameters":)"
       R"({"threshold":{"mean":88.5,"sd":20.5,"mode":85,"low":49.5,"high":130},...}})",
       R"(and with each trial the "recommended" level.)",

@@ -56,15 +56,18 @@ std::string trial_event(int trial, const std::string& staircase, double level, b
                      recommended ? fmt::format(R"(,"recommended":{})", level) : "");
 }
 
-std::string posterior_event(int trial, const std::string& staircase,
-                            const std::vector<ParameterPosterior>& posterior) {
+std::string json_parameters(const std::vector<ParameterPosterior>& posterior) {
   std::string parameters;
   for (const ParameterPosterior& one : posterior)
     parameters += fmt::format(R"({}{}:{{"mean":{},"sd":{},"mode":{},"low":{},"high":{}}})",
                               parameters.empty() ? "" : ",", json_text(one.name), one.mean, one.sd,
                               one.mode, one.low, one.high);
-  return fmt::format(R"({{"event":"posterior","staircase":{},"trial":{},"parameters":{{{}}}}})",
-                     json_text(staircase), trial, parameters);
+  return fmt::format("{{{}}}", parameters);
+}
+
+std::string posterior_event(int trial, const Procedure& staircase) {
+  return fmt::format(R"({{"event":"posterior","staircase":{},"trial":{},"parameters":{}}})",
+                     json_text(staircase.name()), trial, json_parameters(staircase.posterior()));
 }
 
 std::string reversal_event(int trial, const std::string& staircase, const Reversal& reversal) {
@@ -79,13 +82,15 @@ std::string json_number(const std::optional<double>& number) {
   return number ? fmt::to_string(*number) : "null";
 }
 
-// The event with the first estimate, and the reason if a Bayesian kind gives none.
+// The event with the first estimate; of a Bayesian kind also with all parameters, or the reason
+// that there is no estimate, and then none of a parameter either.
 std::string finished_event(const Procedure& staircase, StopReason reason) {
   const Estimate estimate = staircase.estimates().front();
   std::string bayesian;
   if (staircase.is_bayesian())
-    bayesian = fmt::format(R"("sd":{},"censored":{},)", json_number(estimate.sd),
-                           json_text(name_of(estimate.censored)));
+    bayesian = fmt::format(R"("sd":{},"censored":{},"parameters":{},)", json_number(estimate.sd),
+                           json_text(name_of(estimate.censored)),
+                           estimate.value ? json_parameters(staircase.posterior()) : "null");
   return fmt::format(
       R"({{"event":"finished","staircase":{},"reason":{},"estimate":{},"low":{},"high":{},)"
       R"({}"n_trials":{}}})",
@@ -132,8 +137,7 @@ void ProcedureDialog::respond(const AnswerLine& answer) {
   const Procedure& staircase = run_.staircase();
   const Update update = run_.respond(answer.response, answer.level);
   if (update.reversal) write(reversal_event(trial, staircase.name(), *update.reversal));
-  if (with_posterior_ && staircase.is_bayesian())
-    write(posterior_event(trial, staircase.name(), staircase.posterior()));
+  if (with_posterior_ && staircase.is_bayesian()) write(posterior_event(trial, staircase));
   if (update.finish) write(finished_event(staircase, *update.finish));
 }
 

@@ -163,6 +163,8 @@ class LeastEntropyTraces(Oracle):
                                   ("high", "high")):
             self.assertAlmostEqual(finished[key], threshold[of_posterior], delta=1e-6)
         self.assertEqual((finished["reason"], finished["censored"]), ("trials", "none"))
+        for key, value in threshold.items():
+            self.assertAlmostEqual(finished["parameters"]["threshold"][key], value, delta=1e-6)
 
 
 class Ends(Oracle):
@@ -187,6 +189,8 @@ class Ends(Oracle):
         self.assertLessEqual(finished["high"] - finished["low"], 70)
         self.assertLess(finished["n_trials"], 60)
         self.assertAlmostEqual(finished["estimate"], 120, delta=40)
+        self.assertEqual(finished["parameters"]["threshold"]["mean"], finished["estimate"])
+        self.assertEqual(set(finished["parameters"]), {"threshold", "slope", "guess", "lapse"})
 
     def test_always_yes_has_only_a_bound(self):
         finished = self.finished(self.PSI, lambda rng, level: True)
@@ -195,7 +199,7 @@ class Ends(Oracle):
 
     def test_never_has_no_estimate(self):
         finished = self.finished(self.PSI, lambda rng, level: False)
-        self.assertIsNone(finished["estimate"])
+        self.assertEqual((finished["estimate"], finished["parameters"]), (None, None))
         self.assertIn(finished["censored"], ("above", "indeterminate"))
 
     def test_a_start_is_the_first_level_only(self):
