@@ -9,10 +9,12 @@
 
 #include "MadeUpChoosers.h"
 #include "analysis/Analysis.h"
+#include "analysis/Figures.h"
 #include "analysis/Folds.h"
 #include "analysis/charts/Charts.h"
 #include "analysis/dataset/Summary.h"
 #include "analysis/report/Notes.h"
+#include "analysis/report/Report.h"
 #include "inference/Coverage.h"
 
 namespace heft {
@@ -67,6 +69,42 @@ TEST(Sensitivity, OfOnePersonIsThatPersonsOwn) {
   ASSERT_TRUE(rows.at(0).fit.identifiable()) << rows[0].fit.why;
   EXPECT_LT(*rows[0].fit.threshold_75_g->low, 100);
   EXPECT_GT(*rows[0].fit.threshold_75_g->high, 100);
+}
+
+// Of a Bayesian procedure at the same reference, beside the threshold that is fitted to all trials
+// and the JND of reversals.
+TEST(Sensitivity, OfAParticipantHasTheProceduresPosteriorBesideIt) {
+  SessionData data = session(1, "a");
+  add_staircase(data, "reversals", 200, 60);
+  add_staircase(data, "informative", 200, 40);
+  EstimateRow& row = data.estimates[1];
+  row.method = "psi";
+  row.low_g = 30;
+  row.high_g = 55;
+  const auto posterior = [&] {
+    const Summary summary = summarized({data});
+    EXPECT_EQ(figure(summary, "participant_jnd", {{"participant", "a"}}).value, 60);
+    EXPECT_EQ(figure(summary, "posterior_threshold", {{"method", "quest"}}).measure, nullptr);
+    return figure(summary, "posterior_threshold", {{"participant", "a"}, {"method", "psi"}});
+  };
+  EXPECT_EQ(posterior().value, 40);
+  EXPECT_EQ(posterior().low, 30);
+  EXPECT_EQ(posterior().high, 55);
+  EXPECT_THAT(as_json(summarized({data})), HasSubstr(R"("psi_high_g": 55.0)"));
+
+  row.jnd_g.reset();
+  row.low_g.reset();
+  row.high_g.reset();
+  row.censored = Censored::indeterminate;
+  EXPECT_FALSE(posterior().value);
+  EXPECT_EQ(posterior().why, "not identifiable");
+
+  row.jnd_g = 60;
+  row.censored = Censored::none;
+  add_staircase(data, "another", 200, 80);
+  data.estimates[2].method = "psi";
+  EXPECT_EQ(posterior().value, 70) << "the mean of both";
+  EXPECT_FALSE(posterior().low);
 }
 
 // The model is drawn as what it predicts along the staircases, in the same bins.

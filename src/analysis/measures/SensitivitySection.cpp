@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "analysis/display/Phrases.h"
 #include "analysis/measures/Section.h"
 #include "analysis/measures/Sensitivity.h"
+#include "psychophysics/ProcedureKinds.h"
 
 namespace heft {
 
@@ -40,6 +42,9 @@ constexpr Measure start{"staircase_start", "g", "start",
                         "mean first level of a participant's staircases from above or from below"};
 constexpr Measure participant_jnd{"participant_jnd", "g", "JND",
                                   "a participant's JND, all staircases of a reference together"};
+constexpr Measure posterior{"posterior_threshold", "g", "posterior",
+                            "a participant's threshold by a Bayesian procedure, mean of its "
+                            "posterior; of several such staircases their mean, without interval"};
 
 StudyEstimate estimate_at(const Measure& measure, const Compared& compared) {
   return {&measure, "comparison", compared.condition, compared.reference_g};
@@ -133,6 +138,36 @@ void put_starts(Estimates& all, const StudyEstimate& of, const Results& results)
   put_started(all, of, "from below", below);
 }
 
+// The mean of the staircases' posterior estimates, and the interval of a single one.
+StudyEstimate posterior_of(StudyEstimate own, const Results& results) {
+  own.measure = &posterior;
+  std::vector<std::optional<CensoredValue>> values;
+  for (const StaircaseResult* result : results) values.push_back(censored_value(*result));
+  const std::optional<CensoredValue> figure = mean_figure(values);
+  if (!figure) {
+    own.why = results.front()->why;
+    return own;
+  }
+  own.value = figure->value;
+  own.censored = figure->censored;
+  if (results.size() > 1) return own;
+  own.low = results.front()->low_g;
+  own.high = results.front()->high_g;
+  return own;
+}
+
+// By each kind of Bayesian procedure at the reference and in the condition.
+void put_posteriors(Estimates& all, StudyEstimate of, Key key,
+                    const std::map<Key, Results>& results) {
+  ProcedureKinds::for_each([&](const auto& config) {
+    key.first.method = config.kind;
+    const auto found = results.find(key);
+    if (found == results.end() || !ProcedureKinds::is_bayesian(config.kind)) return;
+    of.by = {{"method", key.first.method}};
+    all.push_back(posterior_of(of, found->second));
+  });
+}
+
 EstimateTable sensitivity_table() {
   return {
       "sensitivity",
@@ -192,7 +227,9 @@ EstimateTable threshold_table() {
        column(participant_jnd, Field::censored, "censored", "", 1, "-")},
       "the 75 %-correct threshold by this person's trials, with the lapse rate and the spread of "
       "criteria of all; the paper's JND of the staircases that began high and low beside, each "
-      "with its start",
+      "with its start; quest, quest_plus, psi: mean and 95 % interval of the posterior of a "
+      "staircase "
+      "of this kind",
       TablePlace::report,
       "thresholds[]"};
   add_weber_fraction(table.columns, weber_fraction);
@@ -204,6 +241,12 @@ EstimateTable threshold_table() {
     began.only = of.only = {"staircases", side};
     table.columns.push_back(began);
     table.columns.push_back(of);
+  }
+  for (const auto& [field, name, heading] : {std::tuple(Field::value, "_g", " g"),
+                                             {Field::low, "_low_g", " 95 % low"},
+                                             {Field::high, "_high_g", " high"}}) {
+    table.columns.push_back(column(posterior, field, name, heading));
+    table.columns.back().spread = "method";
   }
   table.columns.push_back(
       column(threshold, Field::why_in_short, "why", "no threshold: why", 1, "-"));
@@ -248,6 +291,7 @@ class SensitivitySection final : public Section {
           put_value(all, of, participant_jnd, jnd->second.jnd_g, jnd->second.censored);
         if (const auto found = results.find(key); found != results.end())
           put_starts(all, of, found->second);
+        put_posteriors(all, of, key, results);
       }
     return all;
   }
