@@ -2,8 +2,13 @@
 #pragma once
 
 #include <array>
+#include <ostream>
+#include <string>
+#include <vector>
 
+#include "SourceFolder.h"
 #include "base/Random.h"
+#include "protocol/readers/Files.h"
 #include "session/Protocols.h"
 #include "session/Recorded.h"
 #include "session/Runner.h"
@@ -16,6 +21,35 @@ inline constexpr double gap_s = 0.6, min_answer_s = 0.5;
 /// Windows of the tests that tap in several ones.
 inline const std::array tapped_windows{Measures{1024, 600}, Measures{1280, 800, 1.3f},
                                        Measures{1920, 1080, 0.8f}, Measures{800, 480}};
+
+/// Where a session is tapped.
+struct TappedSetting {
+  std::string language;
+  Measures window;
+  bool left_handed = false;
+
+  bool is_shipped() const { return language == "en" || language == "fr"; }
+  /// Shipped texts, or texts of the tests in other scripts.
+  ScreenTexts texts() const {
+    const char* folder = is_shipped() ? "/protocols/texts/" : "/tests/texts/";
+    return load_texts(source_folder() + std::string(folder) + language + ".toml");
+  }
+};
+
+/// Each language in each window, every other one left-handed.
+inline std::vector<TappedSetting> tapped_settings(const std::vector<std::string>& languages = {
+                                                      "en", "fr"}) {
+  std::vector<TappedSetting> all;
+  for (std::size_t i = 0; i < languages.size(); ++i)
+    for (std::size_t k = 0; k < tapped_windows.size(); ++k)
+      all.push_back({languages[i], tapped_windows[k], (i + k) % 2 == 1});
+  return all;
+}
+
+inline void PrintTo(const TappedSetting& setting, std::ostream* out) {
+  *out << setting.language << ' ' << setting.window.width << " x " << setting.window.height
+       << (setting.left_handed ? " left-handed" : "");
+}
 
 /// A tap soon, in the middle of a control or at a fraction of its width.
 inline Tap tap_on(const Control& control, RandomStream& random, double along = 0.5) {
@@ -56,6 +90,10 @@ struct TappedSession {
     setup.min_answer_s = min_answer_s;
     engine.apply({0, setup});
   }
+
+  TappedSession(Protocol made, TappedScreen::NextTap next_tap, const TappedSetting& setting)
+      : TappedSession(std::move(made), setting.texts(), std::move(next_tap), setting.window,
+                      setting.left_handed) {}
 
   RunEnd run() { return run_into(sink); }
   RunEnd run_into(EventSink& log) {

@@ -1,11 +1,9 @@
 // Judgments and same-different answers: the intended answer is tapped and logged, in both shipped
-// languages, in several window sizes, right-handed and left-handed.
+// languages, in four window sizes, right-handed and left-handed.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "SourceFolder.h"
 #include "base/Random.h"
-#include "protocol/readers/Files.h"
 #include "session/TappedSession.h"
 #include "tasks/Comparison.h"
 #include "tasks/Judgment.h"
@@ -93,14 +91,11 @@ TEST(JudgmentTaps, WhatWasTappedIsWhatIsLogged) {
   std::uint64_t seed = 0;
   for (const QuestionKind kind :
        {QuestionKind::choice, QuestionKind::likert, QuestionKind::slider, QuestionKind::number})
-    for (const char* language : {"en", "fr"}) {
-      SCOPED_TRACE(fmt::format("{} {}, seed {}", name_of(kind), language, ++seed));
+    for (const testing::TappedSetting& setting : testing::tapped_settings()) {
+      SCOPED_TRACE(fmt::format("{} {}", name_of(kind), ::testing::PrintToString(setting)));
       const FormQuestion asked = question(kind);
-      Judge judge(seed, asked);
-      const std::string texts =
-          fmt::format("{}/protocols/texts/{}.toml", source_folder(), language);
-      TappedSession session(testing::protocol_alone(judgments_of(asked)), load_texts(texts),
-                            std::ref(judge), testing::tapped_windows[seed % 4], seed % 3 == 0);
+      Judge judge(++seed, asked);
+      TappedSession session(testing::protocol_alone(judgments_of(asked)), std::ref(judge), setting);
       ASSERT_EQ(session.run(), RunEnd::finished);
       std::map<int, double> logged;
       for (const RecordedEntry& entry : session.sink.entries())
@@ -153,12 +148,11 @@ TEST(SameDifferentTaps, WhatWasTappedIsWhatIsLogged) {
   block.answers = ComparisonAnswers::same_different;
   block.staircases = {
       {200, {"c", ConstantConfig{.levels = {-100, 0, 50, 100, 200}, .n_per_level = 10}}}};
-  for (const char* language : {"en", "fr"}) {
-    SCOPED_TRACE(language);
-    const ScreenTexts texts =
-        load_texts(fmt::format("{}/protocols/texts/{}.toml", source_folder(), language));
+  for (const testing::TappedSetting& setting : testing::tapped_settings()) {
+    SCOPED_TRACE(::testing::PrintToString(setting));
+    const ScreenTexts texts = setting.texts();
     Comparer comparer(7, texts);
-    TappedSession session(testing::protocol_alone(block), texts, std::ref(comparer));
+    TappedSession session(testing::protocol_alone(block), std::ref(comparer), setting);
     ASSERT_EQ(session.run(), RunEnd::finished);
     std::map<int, bool> logged;
     for (const RecordedEntry& entry : session.sink.entries())

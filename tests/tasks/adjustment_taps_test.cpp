@@ -69,36 +69,32 @@ Adjustment::Block adjustments() {
 
 TEST(AdjustmentTaps, WhatWasTappedIsWhatIsLogged) {
   std::uint64_t seed = 0;
-  for (const char* language : {"en", "fr"})
-    for (const bool left_handed : {false, true}) {
-      SCOPED_TRACE(fmt::format("{}, seed {}", language, ++seed));
-      Adjuster adjuster(seed);
-      const std::string texts =
-          fmt::format("{}/protocols/texts/{}.toml", source_folder(), language);
-      TappedSession session(testing::protocol_alone(adjustments()), load_texts(texts),
-                            std::ref(adjuster), testing::tapped_windows[seed % 4], left_handed);
-      ASSERT_EQ(session.run(), RunEnd::finished);
-      std::map<int, double> set_g;
-      std::map<int, std::vector<double>> logged;
-      TrialRow open;
-      for (const RecordedEntry& entry : session.sink.entries()) {
-        const auto* recorded = std::get_if<RecordedEvent>(&entry);
-        if (!recorded) continue;
-        if (recorded->changes.trial) open = *recorded->changes.trial;
-        const int number = open.plan.trial_number;
-        for (const AnswerRow& answer : recorded->changes.answers) {
-          logged.try_emplace(number);
-          if (answer.action == "adjust") logged[number].push_back(*answer.value);
-        }
-        if (open.status == TrialStatus::completed) set_g[number] = *open.value;
-        if (open.status != TrialStatus::completed || !recorded->changes.trial) continue;
-        double sum_g = *open.plan.reference_g + *open.plan.level_g;
-        for (const double step_g : adjuster.meant[number]) sum_g += step_g;
-        EXPECT_NEAR(*open.value, sum_g, 1e-9) << "trial " << number;
+  for (const testing::TappedSetting& setting : testing::tapped_settings()) {
+    SCOPED_TRACE(::testing::PrintToString(setting));
+    Adjuster adjuster(++seed);
+    TappedSession session(testing::protocol_alone(adjustments()), std::ref(adjuster), setting);
+    ASSERT_EQ(session.run(), RunEnd::finished);
+    std::map<int, double> set_g;
+    std::map<int, std::vector<double>> logged;
+    TrialRow open;
+    for (const RecordedEntry& entry : session.sink.entries()) {
+      const auto* recorded = std::get_if<RecordedEvent>(&entry);
+      if (!recorded) continue;
+      if (recorded->changes.trial) open = *recorded->changes.trial;
+      const int number = open.plan.trial_number;
+      for (const AnswerRow& answer : recorded->changes.answers) {
+        logged.try_emplace(number);
+        if (answer.action == "adjust") logged[number].push_back(*answer.value);
       }
-      EXPECT_EQ(set_g.size(), 50u);
-      EXPECT_EQ(logged, adjuster.meant);
+      if (open.status == TrialStatus::completed) set_g[number] = *open.value;
+      if (open.status != TrialStatus::completed || !recorded->changes.trial) continue;
+      double sum_g = *open.plan.reference_g + *open.plan.level_g;
+      for (const double step_g : adjuster.meant[number]) sum_g += step_g;
+      EXPECT_NEAR(*open.value, sum_g, 1e-9) << "trial " << number;
     }
+    EXPECT_EQ(set_g.size(), 50u);
+    EXPECT_EQ(logged, adjuster.meant);
+  }
 }
 
 // The hand keeps pushing while it taps: the cubes with the new mass appear only once the effector

@@ -1,13 +1,11 @@
 // Fifty comparisons with a real object at the window: lifted, then answered; the tapped answers are
-// logged, in both shipped languages.
+// logged, in both shipped languages and four window sizes.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <map>
 
-#include "SourceFolder.h"
 #include "base/Random.h"
-#include "protocol/readers/Files.h"
 #include "psychophysics/Constant.h"
 #include "session/TappedSession.h"
 #include "tasks/Comparison.h"
@@ -60,26 +58,21 @@ TEST(RealReferenceTaps, WhatWasTappedIsWhatIsLogged) {
   block.staircases = {
       {200, {"c", ConstantConfig{.levels = {-100, 0, 50, 100, 200}, .n_per_level = 10}}}};
   std::uint64_t seed = 0;
-  for (const char* language : {"en", "fr"})
-    for (const bool left_handed : {false, true}) {
-      SCOPED_TRACE(fmt::format("{}, seed {}", language, ++seed));
-      Lifter lifter(seed);
-      TappedSession session(
-          testing::protocol_alone(block),
-          load_texts(fmt::format("{}/protocols/texts/{}.toml", source_folder(), language)),
-          std::ref(lifter), testing::tapped_windows[seed % 4], left_handed);
-      ASSERT_EQ(session.run(), RunEnd::finished);
-      std::map<int, std::string> logged;
-      for (const RecordedEntry& entry : session.sink.entries())
-        if (const auto* recorded = std::get_if<RecordedEvent>(&entry))
-          if (const auto& row = recorded->changes.trial;
-              row && row->status == TrialStatus::completed)
-            logged[row->plan.trial_number] = control_of(*row);
-      EXPECT_EQ(logged.size(), 50u);
-      EXPECT_EQ(logged, lifter.meant());
-      EXPECT_EQ(testing::events_of(session.sink, event_kind<Action>).size(), 100u)
-          << "lifted and answered once in each trial";
-    }
+  for (const testing::TappedSetting& setting : testing::tapped_settings()) {
+    SCOPED_TRACE(::testing::PrintToString(setting));
+    Lifter lifter(++seed);
+    TappedSession session(testing::protocol_alone(block), std::ref(lifter), setting);
+    ASSERT_EQ(session.run(), RunEnd::finished);
+    std::map<int, std::string> logged;
+    for (const RecordedEntry& entry : session.sink.entries())
+      if (const auto* recorded = std::get_if<RecordedEvent>(&entry))
+        if (const auto& row = recorded->changes.trial; row && row->status == TrialStatus::completed)
+          logged[row->plan.trial_number] = control_of(*row);
+    EXPECT_EQ(logged.size(), 50u);
+    EXPECT_EQ(logged, lifter.meant());
+    EXPECT_EQ(testing::events_of(session.sink, event_kind<Action>).size(), 100u)
+        << "lifted and answered once in each trial";
+  }
 }
 
 }  // namespace
