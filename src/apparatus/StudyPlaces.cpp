@@ -51,7 +51,7 @@ std::map<int, const SessionRow*> taken_places(const StudyPlan& plan,
   for (const SessionRow& session : sessions) {
     if (!counts(session, plan, purpose)) continue;
     const auto logged = place_of(session.header.participant_info);
-    if (!logged) continue;
+    if (!logged || session.state == SessionState::withdrawn) continue;
     refuse_other_place(session, *logged, plan);
     if (session.state != SessionState::aborted) taken[logged->number] = &session;
   }
@@ -63,12 +63,23 @@ bool is_in(const std::vector<SessionRow>& sessions, const std::string& id) {
       sessions, [&](const SessionRow& session) { return session.header.participant == id; });
 }
 
-// The plan's id, or P07b if a session of P07 was begun and ended.
+// How many withdrawn sessions had a place; their ids are not in the log any more.
+std::ptrdiff_t n_withdrawn_from(const StudyPlan& plan, int number,
+                                const std::vector<SessionRow>& sessions, Purpose purpose) {
+  return std::ranges::count_if(sessions, [&](const SessionRow& session) {
+    return session.state == SessionState::withdrawn && counts(session, plan, purpose) &&
+           place_of(session.header.participant_info)->number == number;
+  });
+}
+
+// The plan's id, or P07b if a session of P07 was begun and ended or withdrawn.
 std::string fresh_id(const StudyPlan& plan, int number, const std::vector<SessionRow>& sessions,
                      Purpose purpose) {
   const std::string planned = id_for(purpose, planned_id(plan, number));
+  auto n_withdrawn = n_withdrawn_from(plan, number, sessions, purpose);
   std::string id = planned;
-  for (char letter = 'b'; is_in(sessions, id) && letter <= 'z'; ++letter) id = planned + letter;
+  for (char letter = 'b'; (is_in(sessions, id) || n_withdrawn-- > 0) && letter <= 'z'; ++letter)
+    id = planned + letter;
   return id;
 }
 
@@ -167,6 +178,7 @@ OtherVersions had_another_protocol(const StudyPlan& plan, const std::vector<Sess
   for (const SessionRow& session : sessions) {
     const SessionHeader& header = session.header;
     if (!counts(session, plan, purpose) || session.state == SessionState::aborted ||
+        session.state == SessionState::withdrawn ||
         value_of(header.participant_info, "study_group") != group)
       continue;
     found.newest_too = header.protocol_sha256 != protocol_sha256;

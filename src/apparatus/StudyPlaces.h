@@ -33,9 +33,9 @@ struct PlannedParticipant {
 };
 
 /// The first free place, or the participant's own. A place is free again after its session was
-/// ended for good (state "aborted"). Sessions of other studies and purposes do not count, but their
-/// ids are not given again: P07 becomes P07b. Each purpose except main has separate places and ids,
-/// see id_for().
+/// ended for good (state "aborted") or withdrawn. Sessions of other studies and purposes do not
+/// count, but their ids are not given again: P07 becomes P07b. Each purpose except main has
+/// separate places and ids, see id_for().
 /// @param sessions of the log  @param id none: the plan's
 /// @throws Error if all places are taken, or a logged place contradicts the plan
 PlannedParticipant planned_participant(const StudyPlan& plan,

@@ -135,6 +135,10 @@ class Export(SessionTest):
         for file in (self.folder / "data").iterdir():
             self.assertEqual(file.read_bytes(), (self.folder / "again" / file.name).read_bytes())
         self.assertIn("given twice", self.export("b.db", "./b.db", out="twice", expect=2).stderr)
+        shutil.copy(self.folder / "a.db", self.folder / "copy.db")
+        self.assertIn("session 1 of a.db and session 1 of copy.db are the same",
+                      self.export("a.db", "copy.db", out="twice", expect=2).stderr)
+        self.run_heft("analyse", "--db", "a.db", "--db", "copy.db", expect=2, cwd=self.folder)
 
     def test_people_named_alike_in_two_logs_are_two(self):
         self.simulate("a.db")

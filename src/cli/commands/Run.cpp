@@ -79,10 +79,7 @@ std::vector<SessionRow> sessions_in(const std::string& db) {
   refuse_special_file(db);
   std::error_code unknown;
   if (!std::filesystem::exists(db, unknown)) return {};
-  std::vector<SessionRow> sessions = LogReader(db).sessions();
-  std::erase_if(sessions,
-                [](const SessionRow& row) { return row.state == SessionState::withdrawn; });
-  return sessions;
+  return LogReader(db).sessions();
 }
 
 // The plan's values for options that are not given.

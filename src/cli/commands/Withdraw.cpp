@@ -33,16 +33,18 @@ struct Found {
   SessionFacts facts;
   std::set<std::string> folders;   ///< to be searched
   std::set<std::string> pictures;  ///< folders with recorded camera pictures
+  std::set<std::string> videos;    ///< of the session
 };
 
 Found found_in(const LogReader& reader, const WithdrawOptions& options) {
-  Found found{facts_of(reader, reader.session(*options.session)), {}, {}};
+  Found found{facts_of(reader, reader.session(*options.session)), {}, {}, {}};
   const auto folder = std::filesystem::absolute(options.db).parent_path();
   found.folders = {folder.string()};
   found.folders.insert(options.folders.begin(), options.folders.end());
   for (const LoggedSetup& logged : reader.setups(*options.session)) {
     if (!logged.setup.backup.empty()) found.folders.insert(logged.setup.backup);
     if (!logged.setup.record_camera.empty()) found.pictures.insert(logged.setup.record_camera);
+    if (logged.setup.view.name == "video") found.videos.insert(logged.setup.view.what);
   }
   return found;
 }
@@ -91,10 +93,20 @@ void report_copies(const Found& found, const WithdrawOptions& options) {
         fmt::format("{}", fmt::join(found.folders, ", ")));
   for (const auto& [folder, names] : by_folder(copies)) print_copies(folder, names);
   for (const std::string& folder : found.pictures) print("  {} (camera pictures)\n", folder);
-  if (copies.empty() && found.pictures.empty()) print("  none found\n");
+  for (const std::string& video : found.videos) print("  {} (video)\n", video);
+  if (copies.empty() && found.pictures.empty() && found.videos.empty()) print("  none found\n");
   print(
       "Delete them, and what was given away: pseudonymised exports do not name the participant "
       "and are not found here.\n");
+}
+
+// A person may have come several times.
+void report_others(const SessionRow& withdrawn, const std::string& db) {
+  for (const SessionRow& other : LogReader(db).sessions())
+    if (other.session_id != withdrawn.session_id && other.state != SessionState::withdrawn &&
+        other.header.participant == withdrawn.header.participant)
+      print("session {} is of participant {}, too: heft withdraw --db {} --session {}\n",
+            other.session_id, other.header.participant, shell_quoted(db), other.session_id);
 }
 
 void refuse_if_left_in_file(const std::string& why, const WithdrawOptions& options) {
@@ -130,6 +142,7 @@ void withdraw(const WithdrawOptions& options) {
                 ExitCode::usage);
   }
   confirm(found.facts, options);
+  report_others(found.facts.row, options.db);
   report_copies(found, options);  // before, because afterwards nothing names the person
   const Withdrawal done = withdraw_session(options.db, *options.session, utc_now());
   print("session {} is withdrawn; head of the log: {}\n", *options.session, short_head(done.head));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/Error.h"
@@ -22,7 +23,8 @@ namespace heft {
 namespace fs = std::filesystem;
 
 namespace {
-// What is kept of the session's header, once its rows are removed.
+// What is kept of the session's header, once its rows are removed. Of the participant's answers,
+// the place in a study is kept, so that nobody else gets this id (StudyPlaces.h).
 SessionHeader tombstone_of(const SessionHeader& header, const std::string& when_utc,
                            SQLite::Database& database) {
   SessionHeader kept;
@@ -43,9 +45,11 @@ void remove_rows(SQLite::Database& database, std::int64_t session_id) {
   };
   for (const char* table : {"cube", "answer"})
     remove(table, "trial_id IN (SELECT trial_id FROM trial WHERE session_id = ?)");
-  for (const char* table : {"frame", "event", "reversal", "estimate", "participant_parameter",
-                            "participant_info", "trial", "setup"})
+  for (const char* table :
+       {"frame", "event", "reversal", "estimate", "participant_parameter", "trial", "setup"})
     remove(table, "session_id = ?");
+  remove("participant_info",
+         "session_id = ? AND key NOT IN ('study', 'study_place', 'study_participants')");
 }
 
 void write_tombstone(SQLite::Database& database, std::int64_t session_id,
@@ -96,6 +100,15 @@ Withdrawal withdraw(LogFile& file, std::int64_t session_id, const SessionHeader&
   return done;
 }
 
+// Of any name: backups and copies are renamed.
+bool is_database(const fs::path& file) {
+  constexpr std::string_view begins = "SQLite format 3";
+  std::string bytes(begins.size(), '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return in && bytes == begins;
+}
+
 bool holds_session(const fs::path& file, const std::string& participant,
                    const std::string& started_utc) {
   SQLite::Database other(file.string(), SQLite::OPEN_READONLY);
@@ -119,17 +132,15 @@ bool names_participant(const std::string& text, const std::string& participant) 
 bool is_copy(const fs::path& file, const std::string& participant, const std::string& started_utc) {
   constexpr std::uintmax_t longest_text = 64 << 20;
   constexpr std::array<std::string_view, 4> texts{".csv", ".tsv", ".json", ".html"};
-  const std::string name = file.filename().string();
   const bool is_text =
       std::ranges::find(texts, std::string_view(file.extension().native())) != texts.end();
-  const bool is_log = name.find(".db") != std::string::npos && !name.ends_with("-wal") &&
-                      !name.ends_with("-shm") && !name.ends_with("-journal");
+  const bool is_log = is_database(file);
   try {
     if (is_log) return holds_session(file, participant, started_utc);
     return is_text && fs::file_size(file) <= longest_text &&
            names_participant(read_text_file(file.string()), participant);
   } catch (const std::exception&) {
-    return false;  // not a log, or not readable
+    return is_log;  // a damaged or unfinished copy may hold anything
   }
 }
 }  // namespace

@@ -73,7 +73,7 @@ class Withdrawal(LogTest):
         self.people(1)
         self.session(self.db, "--backup", self.folder / "copies", participant="P02")
         self.run_heft("export", self.db, "--out", self.folder / "data")
-        kept = [f"lab.db.{name}" for name in ("old", "v6", "v7", "v8")]
+        kept = [f"lab.db.{name}" for name in ("old", "v6", "v7", "v8")] + ["a copy", "copy.sqlite"]
         for name in kept:
             shutil.copy(self.db, self.folder / name)
         done = self.run_heft("withdraw", "--db", self.db, "--session", 2, "--yes")
@@ -83,6 +83,33 @@ class Withdrawal(LogTest):
         # First the copies, because nothing names the person if it is killed afterwards.
         self.assertLess(listed.index("copies, in"), listed.index("session 1 is withdrawn"))
         self.assertIn("copies/P02_session2", listed)  # which has the first session, too
+
+    def test_other_sessions_of_the_person_are_named(self):
+        self.people(2)
+        self.session(self.db, "--again", participant="P01")
+        done = self.run_heft("withdraw", "--db", self.db, "--session", 1, "--yes").stdout
+        self.assertIn("session 3 is of participant P01, too", done)
+        self.assertNotIn("session 2 is", done)
+        self.assertNotIn("too", self.run_heft("withdraw", "--db", self.db, "--session", 3,
+                                              "--yes").stdout)
+
+    def test_nobody_gets_the_id_of_a_person_who_withdrew(self):
+        shutil.copy(TINY, self.folder)
+        plan = self.folder / "STUDY.toml"
+        plan.write_text('study = "s"\nparticipants = 3\nseed = 1\nprotocol = "tiny.toml"\n'
+                        'db = "lab.db"\n')
+        for _ in range(2):
+            self.run_heft("run", "--plan", plan, "--responder", "simulated")
+        self.run_heft("withdraw", "--db", self.db, "--session", 1, "--yes")
+        self.run_heft("withdraw", "--db", self.db, "--session", 2, "--yes")
+        self.run_heft("replay", "--db", self.db)
+        for _ in range(2):
+            self.run_heft("run", "--plan", plan, "--responder", "simulated")
+        self.run_heft("withdraw", "--db", self.db, "--session", 3, "--yes")
+        self.run_heft("run", "--plan", plan, "--responder", "simulated")
+        ids = [name for (name,) in query(self.db, "select participant from session")]
+        self.assertEqual(ids, ["", "", "", "simulated-02b", "simulated-01c"])
+        self.assertRegex(self.run_heft("list", "--db", self.db).stdout, "s 1 of 3")
 
     def test_it_is_neither_done_by_accident_nor_twice(self):
         self.people(1)
