@@ -8,7 +8,9 @@
 #include <span>
 
 #include "base/Error.h"
+#include "base/Names.h"
 #include "base/Pose.h"
+#include "base/files/Printable.h"
 #include "base/files/TextFile.h"
 
 namespace heft {
@@ -39,8 +41,8 @@ class Reader {
     const auto cells = cells_of(line);
     if (cells.size() != columns.size()) {
       return mistake(number, 1,
-                     fmt::format("{} cells, expected {} ({})", cells.size(), columns.size(),
-                                 fmt::join(columns, ",")));
+                     fmt::format("{}, expected {} ({})", counted(std::ssize(cells), "cell"),
+                                 columns.size(), fmt::join(columns, ",")));
     }
     const auto place = [&](std::size_t i) {
       return static_cast<int>(cells[i].data() - line.data()) + 1;
@@ -54,7 +56,8 @@ class Reader {
       const auto value = number_in(cells[i]);
       if (!value) {
         mistake(number, place(i),
-                fmt::format("{} is \"{}\", expected a finite number", columns[i], cells[i]));
+                fmt::format("{} is \"{}\", expected a finite number", columns[i],
+                            printable(std::string(cells[i]))));
         usable = false;
       } else if (!is_within(i, *value)) {
         mistake(number, place(i),

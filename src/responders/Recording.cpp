@@ -11,6 +11,7 @@
 #include <optional>
 #include <system_error>
 
+#include "base/files/Printable.h"
 #include "base/files/TextFile.h"
 #include "tasks/Task.h"
 
@@ -128,7 +129,8 @@ class Reader {
   void mistake(Column column, const std::string& wrong) {
     const SourcePlace at = place(column);
     mistake(at.line, at.column,
-            fmt::format("{} is \"{}\": {}", columns[column], cells_[column], wrong));
+            fmt::format("{} is \"{}\": {}", columns[column], printable(std::string(cells_[column])),
+                        wrong));
   }
 
   void mistake(int line, int column, std::string message) {

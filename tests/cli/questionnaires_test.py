@@ -37,6 +37,11 @@ class Questionnaires(SessionTest):
         (self.lab / f"{name}.toml").write_text(text + ASKED)
         return self.lab / f"{name}.toml"
 
+    def test_validate_finds_them_beside_the_protocol(self):
+        done = self.run_heft("validate", self.protocol("quick"), cwd=self.folder)
+        self.assertIn("simulated participants)", done.stdout)
+        self.assertNotIn("cannot complete", done.stdout + done.stderr)
+
     def info(self, session=1):
         return dict(query(self.db, "select key, value from participant_info where session_id = "
                                    f"{session}"))

@@ -55,6 +55,8 @@ TEST(Trajectory, EveryMistakeIsReportedAtItsPlace) {
                                        "4,0,0,0,1,0,0,inf\n");
   EXPECT_THAT(said, HasSubstr("hand.csv:3:5: y_m is \"oops\", expected a finite number"));
   EXPECT_THAT(said, HasSubstr("hand.csv:4:1: 3 cells, expected 8"));
+  EXPECT_THAT(mistakes_of("t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,,0,0,1,0,0,0\n"),
+              HasSubstr("hand.csv:2:3: x_m is \"\", expected a finite number"));
   EXPECT_THAT(said, HasSubstr("hand.csv:5:1: t_s 0 does not come after"));
   EXPECT_THAT(said, HasSubstr("hand.csv:6:9: qw,qx,qy,qz has length 2"));
   EXPECT_THAT(said, HasSubstr("hand.csv:7:15: qz is \"inf\""));

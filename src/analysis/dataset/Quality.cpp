@@ -144,7 +144,7 @@ std::vector<DataQualityRow> rows_of(const Sums& sums, std::span<const LossRow> l
           {"unblindings", sums.events.unblindings, std::nullopt,
            "hidden conditions were shown to the experimenter"},
           {"unfinished sessions", sums.n_unfinished, sums.n_sessions,
-           "their completed trials and finished staircases count"}};
+           "completed trials and finished staircases count, unless the participant is excluded"}};
 }
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/display/Table.h"
@@ -18,7 +19,8 @@ Cell figure(const std::optional<double>& value) {
 std::string title(const NamedFit& named) {
   const Fit& fit = named.fit;
   std::string text = named.group ? fmt::format("{}: ", *named.group) : "";
-  text += fmt::format("{:.0f} trials at {} levels", fit.n_trials, fit.n_levels);
+  text += fmt::format("{} at {}", counted(std::lround(fit.n_trials), "trial"),
+                      counted(fit.n_levels, "level"));
   if (fit.log_likelihood) text += fmt::format(", log likelihood {:.4f}", *fit.log_likelihood);
   return text;
 }

@@ -31,7 +31,8 @@ std::string unfinished_note(const Summary& summary) {
                                      name_of(session.state)));
   if (sessions.empty()) return "";
   return fmt::format(
-      "Not finished: session {}. Only completed trials and finished staircases count.",
+      "Not finished: session {}. Completed trials and finished staircases count, unless the "
+      "participant is excluded.",
       some_of(sessions));
 }
 
@@ -147,10 +148,10 @@ std::string NotesCollector::pictures_note() const {
 std::vector<std::string> NotesCollector::result(const Summary& summary) const {
   std::vector<std::string> notes{unverified_note(summary),
                                  withdrawn_note(summary),
+                                 excluded_note(summary),
                                  simulated_note(summary),
                                  missing_note(summary),
                                  unfinished_note(summary),
-                                 excluded_note(summary),
                                  repeated_note(),
                                  protocols_note(),
                                  dragged_note(),

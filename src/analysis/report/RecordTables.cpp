@@ -55,7 +55,7 @@ Table data_quality_table(const Summary& summary) {
               "Data quality",
               {{"what", "what"}, {"n", "n"}, {"of", "of"}, {"meaning", "meaning"}},
               {},
-              "no participant or trial is excluded for these",
+              "of all participants; none is excluded for these, except by the protocol's rules",
               {},
               "quality.summary[]"};
   if (summary.sessions.empty()) return table;

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
+  if (first == std::string_view::npos) return text.substr(0, 0);  // still at its place
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 

@@ -37,10 +37,12 @@ namespace heft::cli {
 
 namespace {
 // The trials of a simulated participant; none if they would be endless.
-std::optional<TrialsByTask> simulated_trials(const Protocol& protocol, std::uint64_t seed) {
+std::optional<TrialsByTask> simulated_trials(const Protocol& protocol, const std::string& path,
+                                             std::uint64_t seed) {
   constexpr int enough_trials = 2000;
   SessionOptions given;
   given.responder = Plug{"simulated"};
+  given.protocol_file = path;
   std::atomic<bool> stop = false;
   RunnerOptions options;
   options.keep_frames = false;
@@ -68,14 +70,15 @@ struct TrialsOfSome {
 // Always the same few participants, so that a protocol gets the same numbers each time. None if a
 // session is endless, or the protocol's simulator does not model hands (cautions()); with another
 // caution if the participants cannot complete it.
-std::optional<TrialsOfSome> trials_of_simulated(const Protocol& protocol, int participants,
+std::optional<TrialsOfSome> trials_of_simulated(const Protocol& protocol, const std::string& path,
+                                                int participants,
                                                 std::vector<std::string>& cautions) try {
   if (!entry_named("simulator", protocol.simulator.name, simulators()).for_sessions)
     return std::nullopt;
   std::vector<std::future<std::optional<TrialsByTask>>> running;
   for (int i = 1; i <= participants; ++i)
-    running.push_back(
-        std::async(std::launch::async, simulated_trials, protocol, static_cast<std::uint64_t>(i)));
+    running.push_back(std::async(std::launch::async, simulated_trials, protocol, path,
+                                 static_cast<std::uint64_t>(i)));
   TrialsOfSome of_all;
   for (auto& one : running) {
     const std::optional<TrialsByTask> trials = one.get();
@@ -101,12 +104,13 @@ std::string assumed_text(const Protocol& protocol, const TrialsByTask& trials) {
 
 constexpr const char* power_hint = "\n  what a study can find: heft power";
 
-std::string described(const Protocol& protocol, std::vector<std::string>& cautions) {
+std::string described(const Protocol& protocol, const std::string& path,
+                      std::vector<std::string>& cautions) {
   constexpr int participants = 6;
   TrialsByTask trials = expected_trials(protocol);
   std::string simulated;
   if (depends_on_answers(protocol))
-    if (const auto taken = trials_of_simulated(protocol, participants, cautions)) {
+    if (const auto taken = trials_of_simulated(protocol, path, participants, cautions)) {
       trials = taken->mean;
       simulated = fmt::format(" ({:.0f} to {:.0f} in {} simulated participants)", taken->least,
                               taken->most, participants);
@@ -206,7 +210,7 @@ Checked checked(const Protocol& protocol, const std::string& path) {
   Checked file;
   file += check_words(protocol, path, protocol.screens.language, path);
   for (std::string& caution : cautions(protocol)) file.cautions.push_back(std::move(caution));
-  if (file.mistakes.empty()) file.summary = described(protocol, file.cautions);
+  if (file.mistakes.empty()) file.summary = described(protocol, path, file.cautions);
   return file;
 }
 

@@ -89,7 +89,7 @@ bool is_busy(const std::exception& error) {
 Error write_error(const std::string& what, const LogFile& file, const std::exception& reason,
                   const std::string& next) {
   if (const auto* displaced = dynamic_cast<const DisplacedLog*>(&reason))
-    return Error(fmt::format("{} is not saved in {}: {}. {}, then {}", what, file.path(),
+    return Error(fmt::format("could not save {} in {}: {}. {}, then {}", what, file.path(),
                              displaced->what(), displaced->remedy(), next));
   SqliteFailure failure{reason.what(), "This is a bug in heft: please report it"};
   if (const auto* error = dynamic_cast<const SQLite::Exception*>(&reason))

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/Error.h"
+#include "base/Names.h"
 #include "base/files/Printable.h"
 #include "record/file/Failures.h"
 #include "record/file/LogFile.h"
@@ -24,10 +25,11 @@ constexpr int busy_timeout_ms = 1000;  ///< longest unannounced wait for a lock
 
 std::string counted(const std::vector<RecordedEntry>& entries) {
   if (entries.empty()) return "the session";
-  std::size_t n_frames = 0;
+  std::ptrdiff_t n_frames = 0;
   for (const RecordedEntry& entry : entries)
     if (std::holds_alternative<FrameRow>(entry)) ++n_frames;
-  return fmt::format("the last {} events and {} pictures", entries.size() - n_frames, n_frames);
+  return fmt::format("the last {} and {}", heft::counted(std::ssize(entries) - n_frames, "event"),
+                     heft::counted(n_frames, "picture"));
 }
 }  // namespace
 

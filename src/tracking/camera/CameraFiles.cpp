@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/Error.h"
+#include "base/files/Printable.h"
 #include "base/files/TextFile.h"
 #include "tracking/camera/Camera.h"
 #include "tracking/camera/ImageConversion.h"
@@ -67,6 +68,8 @@ InvalidFile wrong_time(const std::string& file, std::size_t line, const std::str
   return InvalidFile(std::move(mistakes));
 }
 
+constexpr double latest_s = 1e12;
+
 // Times of pictures by file name.
 std::map<std::string, double, std::less<>> read_times(const std::string& file) {
   const std::string text = read_text_file(file);
@@ -78,13 +81,14 @@ std::map<std::string, double, std::less<>> read_times(const std::string& file) {
     const std::vector<std::string_view> cells = cells_of(lines[i]);
     if (cells.size() == 1 && cells[0].empty()) continue;
     const auto t_s = cells.size() == 2 ? number_in(cells[1]) : std::nullopt;
-    if (!t_s)
+    if (!t_s || std::abs(*t_s) > latest_s)
       throw wrong_time(file, i + 1,
                        fmt::format("expected a file's name and its time in seconds, "
                                    "as in frame_1.png,0.033; found \"{}\"",
-                                   lines[i]));
+                                   printable(std::string(lines[i]))));
     if (!times.emplace(cells[0], *t_s).second)
-      throw wrong_time(file, i + 1, fmt::format("{} already has a time", cells[0]));
+      throw wrong_time(file, i + 1,
+                       fmt::format("{} already has a time", printable(std::string(cells[0]))));
   }
   return times;
 }
