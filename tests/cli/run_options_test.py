@@ -98,6 +98,15 @@ class Options(SessionTest):
         self.assertTrue((self.folder / "film-2.avi").exists())
         self.assertEqual(film.read_bytes(), first)
 
+    def test_a_mistake_in_a_setting_is_one_of_set(self):
+        for setting, expected in {"coupling.stiffness_n_per_m=nan": "--set: stiffness_n_per_m is nan",
+                                  "coupling.stiffnes=3": '--set: unknown key "stiffnes"',
+                                  "layout.area_m=[1, 'x']": "--set: area_m is"}.items():
+            done = self.run_heft("simulate", PROTOCOLS / "quick.toml", "--set", setting, "--db",
+                                 self.folder / "none.db", expect=None)
+            self.assertNotEqual(done.returncode, 0, setting)
+            self.assertIn(expected, done.stderr)
+
 
 if __name__ == "__main__":
     main(__name__)

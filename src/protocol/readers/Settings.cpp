@@ -15,6 +15,16 @@ namespace {
               ExitCode::usage);
 }
 
+// Not of the file: a mistake in it is reported as one of --set.
+TomlNode set_node(TomlNode node) {
+  node.place = set_place;
+  if (auto* array = std::get_if<TomlArray>(&node.value))
+    for (TomlNode& element : *array) element = set_node(std::move(element));
+  if (auto* table = std::get_if<TomlTable>(&node.value))
+    for (TomlEntry& entry : *table) entry = {entry.key, set_place, set_node(std::move(entry.node))};
+  return node;
+}
+
 TomlNode value_of(const ProtocolSetting& setting) {
   const std::string& text = setting.value;
   try {
@@ -71,7 +81,7 @@ void apply(TomlTable& root, const ProtocolSetting& setting) {
     if (path.back().empty()) refuse(setting, "a part of the key is empty");
     from = dot + 1;
   }
-  const TomlNode value = value_of(setting);
+  const TomlNode value = set_node(value_of(setting));
   TomlTable* table = &root;
   while (path.size() > 1) {
     const std::string key = path.front();
@@ -82,7 +92,7 @@ void apply(TomlTable& root, const ProtocolSetting& setting) {
   if (TomlEntry* entry = entry_named(*table, path.front()))
     entry->node = value;
   else
-    table->push_back({path.front(), {}, value});
+    table->push_back({path.front(), set_place, value});
 }
 
 }  // namespace

@@ -136,7 +136,8 @@ std::string shown(const TomlNode& node) {
 }
 
 void Mistakes::add(TomlPlace place, std::string message) {
-  mistakes_.push_back({{file_, place.line, place.column}, std::move(message)});
+  const bool is_set = place.line == set_place.line;
+  mistakes_.push_back({{is_set ? "--set" : file_, place.line, place.column}, std::move(message)});
 }
 
 InvalidFile Mistakes::as_error() const {

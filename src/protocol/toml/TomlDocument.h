@@ -28,6 +28,8 @@ struct TomlOverflow {
 struct TomlPlace {
   int line = 1, column = 1;
 };
+/// Of a value that --set gives.
+inline constexpr TomlPlace set_place{0, 0};
 
 struct TomlNode {
   TomlPlace place;
