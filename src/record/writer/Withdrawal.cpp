@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 // What is kept of the session's header, once its rows are removed. Of the participant's answers,
-// the place in a study is kept, so that nobody else gets this id (StudyPlaces.h).
+// the place in a study is kept, so that this id is not given again (StudyPlaces.h).
 SessionHeader tombstone_of(const SessionHeader& header, const std::string& when_utc,
                            SQLite::Database& database) {
   SessionHeader kept;

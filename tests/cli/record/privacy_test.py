@@ -93,7 +93,7 @@ class Withdrawal(LogTest):
         self.assertNotIn("too", self.run_heft("withdraw", "--db", self.db, "--session", 3,
                                               "--yes").stdout)
 
-    def test_nobody_gets_the_id_of_a_person_who_withdrew(self):
+    def test_an_id_of_a_withdrawn_session_is_not_given_again(self):
         shutil.copy(TINY, self.folder)
         plan = self.folder / "STUDY.toml"
         plan.write_text('study = "s"\nparticipants = 3\nseed = 1\nprotocol = "tiny.toml"\n'
