@@ -16,39 +16,52 @@ constexpr std::size_t most_panels = 150;
 // "200 g, C2", "heavy (positive: yes), C2"; with the question's key if the block has another name.
 std::string name_of_compared(const Track& track) {
   const auto& [reference_g, condition, method, block] = track.compared;
-  if (!track.is_judgment()) return fmt::format("{:g} g, {}", reference_g, condition);
-  return fmt::format(
-      "{}{}{}{}, {}", block, track.question == block ? "" : "/" + track.question,
-      track.chooses_cube ? "" : fmt::format(" (positive: {})", fmt::join(track.positive, ", ")),
-      reference_g > 0 ? fmt::format(" at {:g} g", reference_g) : "", condition);
+  if (block.empty()) return fmt::format("{:g} g, {}", reference_g, condition);
+  return fmt::format("{}{}{}{}, {}", block,
+                     track.question == block || !track.is_judgment() ? "" : "/" + track.question,
+                     track.positive.empty() || track.chooses_cube
+                         ? ""
+                         : fmt::format(" (positive: {})", fmt::join(track.positive, ", ")),
+                     reference_g > 0 ? fmt::format(" at {:g} g", reference_g) : "", condition);
 }
 
 // The kinds of tracks in a chart, on which its texts depend.
 struct TrackKinds {
-  bool comparisons = false, judgments = false;  // JNDs; thresholds
-  bool of_cube = false, of_positive = false;    // answers
-  bool differences = false, masses = false;     // levels
+  bool jnds = false, thresholds = false;      // estimates
+  std::vector<std::string> filled{}, open{};  // answers, without repeats
+  bool of_cube = false;
+  bool differences = false, masses = false;  // levels
 
   void add(const Track& track) {
-    (track.is_judgment() ? judgments : comparisons) = true;
-    (track.chooses_cube ? of_cube : of_positive) = true;
+    if (track.has_estimate) (track.is_judgment() ? thresholds : jnds) = true;
     (track.compared.reference_g > 0 ? differences : masses) = true;
+    of_cube |= track.chooses_cube;
+    if (track.chooses_cube)
+      add_answers("heavier chosen",
+                  track.answers == ComparisonAnswers::heavier ? "" : "no difference");
+    else if (track.is_judgment())
+      add_answers("positive answer", "negative answer");
+    else
+      add_answers("\"different\"", "\"same\"");
   }
+  bool any_estimate() const { return jnds || thresholds; }
   std::string_view estimate() const {
-    if (!judgments) return "the paper's JND";
-    return comparisons ? "the paper's JND, or the threshold of the judgment" : "the threshold";
+    if (!thresholds) return "the paper's JND";
+    return jnds ? "the paper's JND, or the threshold of the judgment" : "the threshold";
   }
   // "filled: heavier chosen; cross: lighter chosen; open: no difference"
-  std::string answers() const {
-    if (!of_cube) return "filled: positive answer; open: negative";
-    return fmt::format("filled: heavier chosen{}; cross: lighter chosen; open: no difference{}",
-                       of_positive ? ", or positive" : "", of_positive ? ", or negative" : "");
+  std::string answers(std::string_view first = "filled") const {
+    std::string text = fmt::format("{}: {}", first, fmt::join(filled, " or "));
+    if (of_cube) text += "; cross: lighter chosen";
+    if (!open.empty()) text += fmt::format("; open: {}", fmt::join(open, " or "));
+    return text;
   }
-  std::string answers_in_caption() const {
-    if (!of_cube) return "Filled: the positive answer; open: the negative one";
-    return fmt::format(
-        "Filled: the heavier cube was chosen{}; cross: the lighter one; open: no difference{}",
-        of_positive ? ", or a positive answer" : "", of_positive ? ", or a negative one" : "");
+
+ private:
+  void add_answers(std::string_view if_filled, std::string_view if_open) {
+    for (auto [all, answer] : {std::pair(&filled, if_filled), {&open, if_open}})
+      if (!answer.empty() && std::ranges::find(*all, answer) == all->end())
+        all->emplace_back(answer);
   }
 };
 
@@ -75,11 +88,13 @@ void add_track(PlotPanel& panel, const Track& track, std::size_t index, bool in_
   const std::string_view color = in_full ? series_color(index) : "#777777";
   const std::string_view estimate = track.is_judgment() ? "threshold" : "JND";
   std::string title;
-  if (in_full)
-    title = fmt::format("{}: {}", track.staircase,
-                        track.jnd_g ? fmt::format("{} {}{:.1f} g", estimate,
-                                                  beyond_sign(track.censored), *track.jnd_g)
-                                    : fmt::format("no {}", estimate));
+  if (in_full) {
+    title = track.staircase;
+    if (track.jnd_g)
+      title += fmt::format(": {} {}{:.1f} g", estimate, beyond_sign(track.censored), *track.jnd_g);
+    else if (track.has_estimate)
+      title += fmt::format(": no {}", estimate);
+  }
   panel.add(rows,
             fmt::format("using 1:2 with lines dashtype {} linecolor '{}'",
                         in_full ? 1 : series_dash(index), color),
@@ -100,6 +115,7 @@ void add_track(PlotPanel& panel, const Track& track, std::size_t index, bool in_
 
 // "P01: 120, > 900 g"
 std::string panel_title(const SessionTracks& session, const std::vector<const Track*>& tracks) {
+  if (!tracks.front()->has_estimate) return session.participant;
   std::string jnds;
   for (const Track* track : tracks)
     jnds += fmt::format("{}{}", jnds.empty() ? ": " : ", ",
@@ -113,7 +129,7 @@ std::string panel_title(const SessionTracks& session, const std::vector<const Tr
 std::string chart_name(const Track& of, bool several_conditions) {
   const std::string& block = of.compared.block;
   std::string name = "all_staircases";
-  if (of.is_judgment()) name += "_" + block;
+  if (!block.empty()) name += "_" + block;
   if (of.compared.reference_g > 0) name += fmt::format("_{:g}g", of.compared.reference_g);
   if (several_conditions) name += "_" + of.compared.condition;
   std::ranges::replace_if(
@@ -125,9 +141,9 @@ std::string chart_name(const Track& of, bool several_conditions) {
 Chart all_at(const Summary& summary, const Track& of, const std::string& name) {
   Chart chart;
   chart.name = name;
-  chart.title = titled(
-      fmt::format("Every staircase {} {}", of.is_judgment() ? "of" : "at", name_of_compared(of)),
-      summary);
+  chart.title = titled(fmt::format("Every staircase {} {}", of.compared.block.empty() ? "at" : "of",
+                                   name_of_compared(of)),
+                       summary);
   std::vector<PlotPanel> panels;
   double highest_g = 1, lowest_g = 0;
   for (const SessionTracks& session : summary.all_tracks) {
@@ -148,14 +164,17 @@ Chart all_at(const Summary& summary, const Track& of, const std::string& name) {
   }
   TrackKinds kinds;
   kinds.add(of);
-  chart.caption = fmt::format(
-      "{} (g) by trial of the staircase, a panel for each session{}. {}. Above each panel {}, "
-      "\"> \" or \"< \" where a bound, the trial limit or few reversals cut it.",
-      kinds.masses ? "Mass" : "Difference shown",
-      static_cast<std::size_t>(chart.n) > panels.size()
-          ? fmt::format(", the first {} of {}", panels.size(), chart.n)
-          : "",
-      kinds.answers_in_caption(), kinds.estimate());
+  chart.caption = fmt::format("{} (g) by trial of the staircase, a panel for each session{}. {}.",
+                              kinds.masses ? "Mass" : "Difference shown",
+                              static_cast<std::size_t>(chart.n) > panels.size()
+                                  ? fmt::format(", the first {} of {}", panels.size(), chart.n)
+                                  : "",
+                              kinds.answers("Filled"));
+  if (kinds.any_estimate())
+    chart.caption += fmt::format(
+        " Above each panel {}, \"> \" or \"< \" where a bound, the trial limit or few reversals "
+        "cut it.",
+        kinds.estimate());
   chart.csv = "staircase_trials.csv";
   PlotFrame frame{140, 94, 5, 60, lowest_g < 0 ? 52 : 40, 74};
   frame.axes =
@@ -191,10 +210,11 @@ Chart tracks_chart(const Summary& summary) {
   chart.csv = "staircase_trials.csv";
   TrackKinds kinds;
   for (const Track& track : session.tracks) kinds.add(track);
-  chart.caption = fmt::format(
-      "One session's staircases in full; all sessions' follow. Dashed: {}, \"> \" or \"< \" where "
-      "it is censored. {}; ring: reversal.",
-      kinds.estimate(), kinds.answers_in_caption());
+  chart.caption = "One session's staircases in full; all sessions' follow.";
+  if (kinds.any_estimate())
+    chart.caption +=
+        fmt::format(" Dashed: {}, \"> \" or \"< \" where it is censored.", kinds.estimate());
+  chart.caption += fmt::format(" {}; ring: reversal.", kinds.answers("Filled"));
   std::map<Compared, PlotPanel> panels;
   std::map<Compared, std::size_t> n_tracks;
   for (const Track& track : session.tracks) {

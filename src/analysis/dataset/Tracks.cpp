@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "psychophysics/ProcedureKinds.h"
 #include "tasks/Comparison.h"
 #include "tasks/Judgment.h"
 
@@ -19,9 +20,15 @@ std::optional<Tracked> compared_in(const Attempt& attempt) {
   const TrialRow& trial = attempt.trial;
   if (!trial.plan.reference_g) return std::nullopt;
   const bool chosen = trial.outcome == "difference";
-  const bool wrong = chosen && *trial.plan.level_g != 0 && !trial.choice_correct.value_or(true);
-  return Tracked{{trial.plan.staircase, {*trial.plan.reference_g, trial.plan.condition}, {}, {}},
-                 {*trial.plan.level_g, wrong, chosen, attempt.is_reversal}};
+  const bool wrong = chosen && trial.chosen_slot && *trial.plan.level_g != 0 &&
+                     !trial.choice_correct.value_or(true);
+  Tracked tracked{{trial.plan.staircase, {*trial.plan.reference_g, trial.plan.condition}, {}, {}},
+                  {*trial.plan.level_g, wrong, chosen, attempt.is_reversal}};
+  Track& track = tracked.track;
+  track.answers = attempt.answers_offered;
+  track.chooses_cube = track.answers != ComparisonAnswers::same_different;
+  if (track.answers != ComparisonAnswers::heavier_or_none) track.compared.block = trial.plan.block;
+  return tracked;
 }
 
 std::optional<Tracked> judged_in(const Attempt& attempt, const SessionData& data) {
@@ -49,13 +56,23 @@ std::optional<Tracked> judged_in(const Attempt& attempt, const SessionData& data
   return tracked;
 }
 
+// Constant stimuli have no course.
+bool is_adaptive(const std::string& staircase, const SessionData& data) {
+  if (!data.without_jnd.contains(staircase)) return true;
+  const auto run = data.staircases.find(staircase);
+  return run != data.staircases.end() && ProcedureKinds::estimates_level(*run->second.before);
+}
+
 std::optional<Tracked> tracked_in(const Attempt& attempt, const SessionData& data) {
   const TrialPlan& plan = attempt.trial.plan;
   if (!attempt.completed() || plan.staircase.empty() || !plan.level_g ||
-      data.without_jnd.contains(plan.staircase))
+      !is_adaptive(plan.staircase, data))
     return std::nullopt;
-  if (plan.task == Comparison::task.name) return compared_in(attempt);
-  return plan.task == Judgment::task.name ? judged_in(attempt, data) : std::nullopt;
+  std::optional<Tracked> tracked;
+  if (plan.task == Comparison::task.name) tracked = compared_in(attempt);
+  if (plan.task == Judgment::task.name) tracked = judged_in(attempt, data);
+  if (tracked) tracked->track.has_estimate = !data.without_jnd.contains(plan.staircase);
+  return tracked;
 }
 
 void add_point(std::vector<Track>& tracks, Tracked&& tracked) {

@@ -16,7 +16,7 @@ namespace heft {
 struct TrackPoint {
   double level_g = 0;   ///< as presented
   bool wrong = false;   ///< the lighter cube was chosen
-  bool chosen = false;  ///< whether a cube was chosen, or the answer is positive
+  bool chosen = false;  ///< a cube was chosen, or the answer is positive or "different"
   bool is_reversal = false;
 };
 
@@ -30,8 +30,10 @@ struct Track {
   std::string question{};
   std::vector<std::string> positive{};
   bool chooses_cube = true;  ///< otherwise answers are positive or negative
+  ComparisonAnswers answers = ComparisonAnswers::heavier_or_none;  ///< of comparisons
+  bool has_estimate = true;  ///< whether such staircases estimate a JND or a threshold
 
-  bool is_judgment() const { return !compared.block.empty(); }
+  bool is_judgment() const { return !question.empty(); }
 };
 
 struct SessionTracks {
@@ -41,8 +43,8 @@ struct SessionTracks {
   std::vector<Track> tracks;  ///< by reference, then name
 };
 
-/// Every session that has staircases that estimate a JND or the threshold of a judgment whose
-/// question the log has.
+/// Every session that has adaptive staircases of comparisons, or of judgments whose question the
+/// log has. Comparisons with two answers belong to their block, as judgments do.
 class TracksCollector {
  public:
   void add(const SessionData& data);

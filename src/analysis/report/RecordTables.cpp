@@ -333,7 +333,7 @@ Table track_table(const SessionTracks& session) {
                {"chosen", "chosen"},
                {"incorrect", "incorrect"},
                {"reversal", "reversal"},
-               {"block", "judgment"},
+               {"block", "block"},
                {"question", "question"},
                {"positive", "positive answers"}},
               {},
