@@ -8,10 +8,11 @@
 #include <map>
 #include <set>
 
-#include "analysis/dataset/Jnd.h"
 #include "base/Error.h"
 #include "protocol/Protocol.h"
 #include "protocol/readers/Files.h"
+#include "protocol/toml/TomlDocument.h"
+#include "psychophysics/ProcedureKinds.h"
 #include "record/export/Export.h"
 #include "tasks/Comparison.h"
 #include "tasks/Judgment.h"
@@ -149,6 +150,34 @@ EventCounts count_events(const std::vector<LoggedEvent>& events) {
 }
 
 namespace {
+// Forced choices give a JND only if the comparison is never the lighter one: otherwise the answers
+// are equally frequent at the point of equality, not at a difference.
+bool estimates_jnd(const TaskBlock& block, const Procedure& procedure) {
+  if (!ProcedureKinds::estimates_level(procedure)) return false;
+  const auto* comparison = block.as<Comparison::Block>();
+  if (comparison) return comparison->has_three_answers();
+  const auto* judgment = block.as<Judgment::Block>();
+  if (!judgment || !judgment->is_forced()) return true;
+  const UpDown* up_down = procedure.get_if<UpDown>();
+  const auto levels_g = procedure.planned_levels();
+  return std::ranges::none_of(levels_g, [](double level_g) { return level_g < 0; }) &&
+         !(up_down && up_down->config().floor.value_or(0) < 0);
+}
+}  // namespace
+
+std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
+  std::set<std::string> names;
+  try {
+    for (const Block& block : parse_protocol(protocol_text, "protocol").blocks)
+      if (const auto* trials = std::get_if<TaskBlock>(&block))
+        for (const ReferenceStaircase& entry : trials->staircases())
+          if (!estimates_jnd(*trials, entry.staircase)) names.insert(entry.staircase.name());
+  } catch (const InvalidFile&) {
+  }
+  return names;
+}
+
+namespace {
 struct Declared {
   std::set<std::string> without_jnd;
   std::map<std::string, StaircaseRun> staircases;
@@ -166,12 +195,15 @@ constexpr std::array counted_kinds{event_kind<Note>,         event_kind<Deviatio
 
 std::map<std::string, StaircaseRun> staircases_in(const Protocol& protocol) {
   std::map<std::string, StaircaseRun> runs;
-  for (const Block& block : protocol.blocks)
-    if (const auto* comparison = block_as<Comparison::Block>(block))
-      for (const ReferenceStaircase& entry : comparison->staircases)
-        runs[entry.staircase.name()] = {
-            std::make_shared<const Procedure>(entry.staircase),
-            comparison->positive_answer == PositiveAnswer::correct_choice};
+  for (const Block& block : protocol.blocks) {
+    const auto* trials = std::get_if<TaskBlock>(&block);
+    if (!trials) continue;
+    const auto* comparison = trials->as<Comparison::Block>();
+    for (const ReferenceStaircase& entry : trials->staircases())
+      runs[entry.staircase.name()] = {
+          std::make_shared<const Procedure>(entry.staircase),
+          comparison && comparison->positive_answer == PositiveAnswer::correct_choice};
+  }
   return runs;
 }
 

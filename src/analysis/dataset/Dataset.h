@@ -136,6 +136,9 @@ struct SessionRows {
   std::vector<EstimateRow> estimates;
 };
 
+/// Names of a protocol's staircases whose kind estimates nothing; empty if the text is no protocol.
+std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
+
 /// Joins each attempt's rows. Rows of an attempt that has no trial row are left out.
 SessionData join_rows(const SessionRow& session, const SessionRows& rows);
 

@@ -8,13 +8,9 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <variant>
 
 #include "analysis/dataset/Dataset.h"
-#include "protocol/Protocol.h"
-#include "protocol/toml/TomlDocument.h"
 #include "psychophysics/ProcedureKinds.h"
-#include "tasks/Comparison.h"
 #include "tasks/Judgment.h"
 
 namespace heft {
@@ -236,32 +232,11 @@ std::optional<CensoredValue> censored_value(const StaircaseResult& result) {
   return CensoredValue{*result.shown_g, result.censored};
 }
 
-namespace {
-// Forced choices give a JND only if the comparison is never the lighter one: otherwise the answers
-// are equally frequent at the point of equality, not at a difference.
-bool estimates_jnd(const TaskBlock& block, const Procedure& procedure) {
-  if (!ProcedureKinds::estimates_level(procedure)) return false;
-  const auto* comparison = block.as<Comparison::Block>();
-  if (comparison) return comparison->has_three_answers();
-  const auto* judgment = block.as<Judgment::Block>();
-  if (!judgment || !judgment->is_forced()) return true;
-  const UpDown* up_down = procedure.get_if<UpDown>();
-  const auto levels_g = procedure.planned_levels();
-  return std::ranges::none_of(levels_g, [](double level_g) { return level_g < 0; }) &&
-         !(up_down && up_down->config().floor.value_or(0) < 0);
-}
-}  // namespace
-
-std::set<std::string> staircases_without_jnd(const std::string& protocol_text) {
-  std::set<std::string> names;
-  try {
-    for (const Block& block : parse_protocol(protocol_text, "protocol").blocks)
-      if (const auto* trials = std::get_if<TaskBlock>(&block))
-        for (const ReferenceStaircase& entry : trials->staircases())
-          if (!estimates_jnd(*trials, entry.staircase)) names.insert(entry.staircase.name());
-  } catch (const InvalidFile&) {
-  }
-  return names;
+void ReferenceJnd::withhold(const std::string& why) {
+  overall.withhold(why);
+  if (starts)
+    for (Jnds* jnds : {&starts->from_above_g, &starts->from_below_g, &starts->difference_g})
+      jnds->withhold(why);
 }
 
 const Jnds& ReferenceJnd::as_published() const {
@@ -283,7 +258,9 @@ void StaircaseCollector::add_starts(const std::string& participant,
 
 void StaircaseCollector::add(const SessionData& data) {
   const std::string participant = data.participant();
-  for (const auto& [staircase, compared] : compared_by(data, task_)) {
+  const std::map<std::string, Compared> staircases = compared_by(data, task_);
+  answers_.add(data, staircases);
+  for (const auto& [staircase, compared] : staircases) {
     began_[compared][participant][data.session.session_id] += 1;
     comparable_[compared].add(data.published_condition(compared.condition), true);
   }
@@ -303,6 +280,11 @@ std::vector<ReferenceJnd> StaircaseCollector::jnds() const {
       jnds.back().published = published::jnd_at(compared.reference_g);
     if (const auto starts = starts_.find(compared); starts != starts_.end())
       jnds.back().starts = start_effect(starts->second, participants);
+    if (const auto p = answers_.p_of_random(compared); p >= 0.05)
+      jnds.back().withhold(
+          fmt::format("random answers explain these: in the same procedures they depend on the "
+                      "level as much in {:.0f} % of simulated studies",
+                      100 * *p));
   }
   return jnds;
 }
@@ -325,8 +307,17 @@ void Jnds::put_means(FigureModel model) {
               static_cast<int>(as_logged_g_.size())};
 }
 
+void Jnds::withhold(const std::string& why) {
+  for (const ParticipantJnd& one : participants) missing.push_back(one.participant);
+  participants.clear();
+  as_logged_g_.clear();
+  put_means(model_);
+  why_withheld = why;
+}
+
 namespace {
 std::string why_no_mean(const Jnds& jnds) {
+  if (!jnds.why_withheld.empty()) return jnds.why_withheld;
   const int n_above = jnds.n_censored(Censored::above), n_below = jnds.n_censored(Censored::below);
   const int n_missing = static_cast<int>(jnds.missing.size());
   const std::vector<double> exact_g = jnds.exact_g();
@@ -368,7 +359,8 @@ void put_participants(Estimates& all, StudyEstimate of, const Jnds& jnds) {
     estimate.censored = one.censored;
     estimate.n = 1;
   }
-  for (const std::string& participant : jnds.missing) put(participant).why = "indeterminate";
+  for (const std::string& participant : jnds.missing)
+    put(participant).why = jnds.why_withheld.empty() ? "indeterminate" : jnds.why_withheld;
 }
 
 std::vector<double> Jnds::exact_g() const {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "analysis/dataset/Dataset.h"
+#include "analysis/dataset/StaircaseAnswers.h"
 #include "analysis/dataset/StudyEstimate.h"
 #include "inference/CensoredMean.h"
 #include "inference/Statistics.h"
@@ -84,9 +85,12 @@ struct Jnds : FigureSummary {
   /// Participants without a figure: a staircase is unfinished, has neither JND nor direction, or
   /// one is censored above and another one below.
   std::vector<std::string> missing;
+  std::string why_withheld{};  ///< why all are missing
 
   void add(const std::string& participant, const JndFigure& figure);
   void put_means(FigureModel model);  ///< when all are added
+  /// Makes the figures of all participants missing.
+  void withhold(const std::string& why);
   int n() const { return static_cast<int>(participants.size() + missing.size()); }
   int n_censored(Censored direction) const;
   /// Those that the mean takes as exact: JNDs of 0 g have no logarithm, and are below the others.
@@ -127,12 +131,10 @@ struct ReferenceJnd {
   /// null.
   const published::Figure* published = nullptr;
 
+  void withhold(const std::string& why);
   /// Staircases that began as the paper's did, from above.
   const Jnds& as_published() const;
 };
-
-/// Names of a protocol's staircases whose kind estimates nothing; empty if the text is no protocol.
-std::set<std::string> staircases_without_jnd(const std::string& protocol_text);
 
 /// Collects the sessions' staircases of one task.
 class StaircaseCollector {
@@ -158,6 +160,7 @@ class StaircaseCollector {
 
   std::string task_;
   std::deque<StaircaseResult> results_;
+  StaircaseAnswers answers_;
   std::map<Compared, Began> began_;
   std::map<Compared, published::Comparable> comparable_;
   std::map<Compared, std::map<std::string, AboveAndBelow>> starts_;

@@ -81,8 +81,9 @@ class JudgmentThresholdSection final : public Section {
         place,
         "what the procedures of judgments estimated, as for JNDs: of a single "
         "cube (no reference) the mass, otherwise the difference from the "
-        "reference; censored: known only to lie above or below. A staircase gives a "
-        "threshold for any answers, random ones too: see its trials",
+        "reference; censored: known only to lie above or below. A threshold needs answers "
+        "of all participants together that depend on the level more than random answers in the "
+        "same procedures do (likelihood ratio, p < .05, simulated)",
         TablePlace::results,
         "judgment_threshold[]"};
     for (EstimateColumn& one :

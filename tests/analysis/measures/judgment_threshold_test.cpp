@@ -1,9 +1,14 @@
 // Thresholds of judgments, by block: which procedures have one.
 #include <gmock/gmock.h>
 
+#include <functional>
+#include <memory>
+
 #include "analysis/Figures.h"
 #include "analysis/MadeUpSessions.h"
 #include "analysis/dataset/Jnd.h"
+#include "psychophysics/ProcedureKinds.h"
+#include "tasks/Judgment.h"
 
 namespace heft {
 namespace {
@@ -126,6 +131,68 @@ TEST(JudgmentThreshold, NotesMethodsOnlyWhereThoseOfOneJudgmentDiffer) {
   EXPECT_THAT(summarized({one, other}).notes,
               testing::Contains("JNDs are by several methods, in separate rows: "
                                 "mean_of_reversals, quest."));
+}
+
+// Runs the staircase "heavy" of single cubes. @param share of "yes" at a mass
+SessionData judge_of(int id, const std::function<double(double)>& share) {
+  SessionData data = session(id, "p" + std::to_string(id));
+  Judgment::Offer& offer = data.judgments["heavy"];
+  offer.question.choices = {{"yes", "yes"}, {"no", "no"}};
+  offer.question.kind = QuestionKind::choice;
+  offer.responses = {{"yes", Meaning::positive}, {"no", Meaning::negative}};
+  UpDownConfig config;
+  config.start = 400;
+  config.steps = {120, 60, 30};
+  config.floor = 10;
+  config.stop_reversals = 8;
+  Procedure procedure("of heavy", config);
+  data.staircases["of heavy"] = {std::make_shared<const Procedure>(procedure)};
+  RandomStream stream(static_cast<std::uint64_t>(id), "answers");
+  while (!procedure.finished()) {
+    const double level_g = procedure.next_level(stream);
+    const bool yes = stream.coin(share(level_g));
+    Attempt& attempt = add_attempt(data, "judgment", {level_g});
+    attempt.trial.plan.block = "heavy";
+    attempt.trial.plan.staircase = "of heavy";
+    attempt.trial.plan.level_g = level_g;
+    attempt.trial.outcome = "chosen";
+    attempt.trial.value = yes ? 1 : 2;
+    procedure.respond({yes, {}}, level_g);
+  }
+  EstimateRow row;
+  row.staircase = "of heavy";
+  row.method = jnd_method;
+  row.jnd_g = procedure.estimates().front().value;
+  row.n_reversals = 8;
+  data.estimates.push_back(row);
+  return data;
+}
+
+Summary judged_by(int n_people, const std::function<double(double)>& share) {
+  std::vector<SessionData> people;
+  for (int id = 1; id <= n_people; ++id) people.push_back(judge_of(id, share));
+  return summarized(people);
+}
+
+TEST(JudgmentThreshold, OfRandomAnswersIsNotIdentifiable) {
+  const Summary summary = judged_by(8, [](double) { return 0.5; });
+  const StudyEstimate found =
+      figure(summary, "judgment_threshold", {{"block", "heavy"}, {"participant", ""}});
+  EXPECT_FALSE(found.value.has_value());
+  EXPECT_THAT(found.why, testing::StartsWith("random answers explain these: in the same "
+                                             "procedures they depend on the level as much in "));
+  const StudyEstimate own =
+      figure(summary, "judgment_threshold", {{"block", "heavy"}, {"participant", "p1"}});
+  EXPECT_FALSE(own.value.has_value());
+  EXPECT_EQ(own.why, found.why);
+  EXPECT_EQ(of(summary, "judgment_threshold_n_missing", "heavy", ""), 8);
+}
+
+TEST(JudgmentThreshold, OfPeopleWhoPerceiveTheMassIsIdentifiable) {
+  const Summary summary =
+      judged_by(8, [](double g) { return 0.02 + 0.96 * normal_cdf((g - 110) / 20); });
+  EXPECT_NEAR(of(summary, "judgment_threshold", "heavy", "").value(), 110, 20);
+  EXPECT_TRUE(of(summary, "judgment_threshold", "heavy", "", "p1").has_value());
 }
 
 const std::string judgment = R"(title = "t"
