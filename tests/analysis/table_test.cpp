@@ -5,6 +5,9 @@
 
 #include <limits>
 
+#include "analysis/display/EstimateTable.h"
+#include "analysis/display/Phrases.h"
+
 namespace heft {
 namespace {
 
@@ -54,6 +57,24 @@ TEST(Table, HtmlIsEscapedAndWithoutCsvOnlyColumns) {
 TEST(Table, WhatIsNotFiniteDoesNotExist) {
   EXPECT_TRUE(number(std::numeric_limits<double>::quiet_NaN()).text.empty());
   EXPECT_FALSE(number(std::numeric_limits<double>::infinity()).value.has_value());
+}
+
+TEST(Digits, AreNoMoreThanDataSupport) {
+  EXPECT_EQ(in_grams(7.6), "8");
+  EXPECT_EQ(in_grams(999.4), "999");
+  EXPECT_EQ(in_grams(1570.7), "1570");
+  EXPECT_EQ(in_grams(37817.8), "37800");
+  static constexpr Measure jnd{"jnd", "g", "JND", ""};
+  StudyEstimate estimate{&jnd};
+  estimate.value = 999.26;
+  estimate.high = 37817.76;
+  EXPECT_EQ(grams_between(estimate), "") << "the interval has one end";
+  const Table table =
+      table_of({"t", "", {column(jnd, Field::value, "g"), column(jnd, Field::high, "high")}, ""},
+               {estimate});
+  EXPECT_EQ(table.rows.at(0).at(0).text, "999.3");
+  EXPECT_EQ(table.rows.at(0).at(1).text, "37818");
+  EXPECT_EQ(table.rows.at(0).at(1).value, 37817.76) << "files have all digits";
 }
 
 TEST(Wrapping, BreaksAtSpacesAndLongWords) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -19,7 +20,8 @@ Cell coordinate_cell(const StudyEstimate& estimate, std::string_view name) {
 }
 
 Cell shown(const std::optional<double>& value, const EstimateColumn& column, Censored censored) {
-  Cell cell = number(value, column.decimals);
+  constexpr double without_decimals = 1000;  // from here on, data do not support them
+  Cell cell = number(value, std::abs(value.value_or(0)) < without_decimals ? column.decimals : 0);
   if (value && column.decimals == 0) cell.is_whole = true;
   if (column.field == Field::value && value && censored != Censored::indeterminate)
     cell.text = std::string(beyond_sign(censored)) + cell.text;

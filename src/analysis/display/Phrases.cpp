@@ -63,6 +63,18 @@ std::string in_digits(double value) {
   return std::abs(value) >= 100 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
 
+std::string in_grams(double value_g) {
+  const double size_g = std::abs(value_g);
+  if (size_g < 1000) return fmt::format("{:.0f}", value_g);
+  const double unit_g = std::pow(10, std::floor(std::log10(size_g)) - 2);
+  return fmt::format("{:.0f}", unit_g * std::round(value_g / unit_g));
+}
+
+std::string grams_between(const StudyEstimate& estimate) {
+  if (!estimate.low || !estimate.high) return "";
+  return fmt::format(" [{}, {}]", in_grams(*estimate.low), in_grams(*estimate.high));
+}
+
 std::string some_of(const std::vector<std::string>& names, std::size_t most) {
   const std::size_t shown = std::min(most, names.size());
   std::string text = fmt::format("{}", fmt::join(std::span(names).first(shown), ", "));
@@ -87,9 +99,8 @@ std::vector<std::string> threshold_findings(const Summary& summary, std::string_
                                             std::string_view measure) {
   std::vector<std::string> parts;
   for (const StudyEstimate* one : estimates_of(summary.estimates, measure)) {
-    std::string part = one->value ? fmt::format("{:.0f} g", *one->value) : "not identifiable";
-    if (one->value && one->low && one->high)
-      part += fmt::format(" [{:.0f}, {:.0f}]", *one->low, *one->high);
+    std::string part = one->value ? in_grams(*one->value) + " g" : "not identifiable";
+    if (one->value) part += grams_between(*one);
     part += fmt::format(" at {:g} g {}", *one->reference_g, in_condition(summary, one->condition));
     if (one->value && !one->why.empty())
       part += fmt::format(", over the {} that can be estimated", counted(one->n, "participant"));

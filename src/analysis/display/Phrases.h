@@ -23,6 +23,12 @@ std::string simulated_note(const Summary& summary);
 /// Three significant digits, without an exponent: "0.0123", "1.04", "1560".
 std::string in_digits(double value);
 
+/// Whole grams, with three significant digits from 1000 g on: "8", "109", "1570".
+std::string in_grams(double value_g);
+
+/// " [102, 118]", in grams; empty: the estimate has no interval.
+std::string grams_between(const StudyEstimate& estimate);
+
 /// "1, 2, 3 and 40 more"
 std::string some_of(const std::vector<std::string>& names, std::size_t most = 8);
 

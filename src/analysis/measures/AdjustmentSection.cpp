@@ -117,18 +117,17 @@ class AdjustmentSection final : public Section {
         {key_column("condition", "condition"), key_column("reference_g", "reference g"),
          column(bias, Field::n, "n_participants", "n"),
          column(bias, Field::n_trials, "n_trials", "trials"),
-         column(bias, Field::value, "bias_g", "bias g", 2),
-         column(bias, Field::sd, "sd_g", "SD", 2)},
+         column(bias, Field::value, "bias_g", "bias g"), column(bias, Field::sd, "sd_g", "SD")},
         "over participants, each of whom counts once; bias in percent by geometric means; spread: "
         "standard deviation of a participant's settings; start effect: slope of settings on the "
         "first mass, of three settings or more",
         TablePlace::results,
         "adjustment[]"};
-    add_interval(over_people.columns, bias, "low_g", "high_g", 2);
+    add_interval(over_people.columns, bias, "low_g", "high_g");
     over_people.columns.push_back(column(bias_percent, Field::value, "bias_percent", "bias %"));
     add_interval(over_people.columns, bias_percent, "low_percent", "high_percent");
-    over_people.columns.push_back(column(spread, Field::value, "spread_g", "spread g", 2));
-    add_interval(over_people.columns, spread, "spread_low_g", "spread_high_g", 2);
+    over_people.columns.push_back(column(spread, Field::value, "spread_g", "spread g"));
+    add_interval(over_people.columns, spread, "spread_low_g", "spread_high_g");
     over_people.columns.push_back(
         column(start_effect, Field::value, "start_effect", "start effect", 2));
     add_interval(over_people.columns, start_effect, "start_effect_low", "start_effect_high", 2);
@@ -138,11 +137,10 @@ class AdjustmentSection final : public Section {
         "adjustment_by_participant",
         "Each participant's bias and spread",
         {key_column("condition", "condition"), key_column("reference_g", "reference g"),
-         key_column("participant", "participant"),
-         column(bias, Field::value, "bias_g", "bias g", 2),
+         key_column("participant", "participant"), column(bias, Field::value, "bias_g", "bias g"),
          column(bias, Field::n_trials, "n_trials", "trials"),
          column(bias_percent, Field::value, "bias_percent", "bias %"),
-         column(spread, Field::value, "spread_g", "spread g", 2),
+         column(spread, Field::value, "spread_g", "spread g"),
          column(start_effect, Field::value, "start_effect", "start effect", 2),
          column(spread, Field::why, "why", "no spread: why")},
         "",

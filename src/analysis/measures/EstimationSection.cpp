@@ -220,23 +220,23 @@ class EstimationSection final : public Section {
         "estimation_exponent",
         "Magnitude estimation: exponent of the power law",
         {key_column("condition", "condition"), column(exponent, Field::n, "n", "n"),
-         column(exponent, Field::value, "exponent", "exponent", 3),
-         column(exponent, Field::sd, "sd", "SD", 3)},
+         column(exponent, Field::value, "exponent", "exponent", 2),
+         column(exponent, Field::sd, "sd", "SD", 2)},
         "slope of log number on log mass of each participant, of numbers above 0; 1: proportional",
         TablePlace::results,
         "estimation_exponent[]"};
-    add_interval(exponents.columns, exponent, "low", "high", 3);
+    add_interval(exponents.columns, exponent, "low", "high", 2);
     exponents.columns.push_back(column(exponent, Field::why, "why", "no exponent"));
     if (has_friction_) {
       exponents.columns.push_back(
-          column(friction_exponent, Field::value, "friction_exponent", "of friction", 3));
-      add_interval(exponents.columns, friction_exponent, "friction_low", "friction_high", 3);
+          column(friction_exponent, Field::value, "friction_exponent", "of friction", 2));
+      add_interval(exponents.columns, friction_exponent, "friction_low", "friction_high", 2);
     }
     EstimateTable people{
         "estimation_by_participant",
         "Each participant's exponent",
         {key_column("condition", "condition"), key_column("participant", "participant"),
-         column(exponent, Field::value, "exponent", "exponent", 3),
+         column(exponent, Field::value, "exponent", "exponent", 2),
          column(exponent, Field::n_trials, "n_trials", "trials"),
          column(exponent, Field::why, "why", "no exponent: why")},
         "",
@@ -244,7 +244,7 @@ class EstimationSection final : public Section {
     people.participants = true;
     if (has_friction_)
       people.columns.push_back(
-          column(friction_exponent, Field::value, "friction_exponent", "of friction", 3));
+          column(friction_exponent, Field::value, "friction_exponent", "of friction", 2));
     return {by_mass, exponents, people};
   }
 

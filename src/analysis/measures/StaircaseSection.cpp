@@ -318,15 +318,16 @@ class StaircaseSection final : public Section {
       const std::string staircases = one->text_at("staircases");
       if (staircases == "above - below") continue;
       std::string text =
-          one->value ? fmt::format("{}{:.0f} g", beyond_sign(one->censored), *one->value) : "none";
-      if (one->low) text += fmt::format(" [{:.0f}, {:.0f}]", *one->low, *one->high);
+          one->value ? fmt::format("{}{} g", beyond_sign(one->censored), in_grams(*one->value))
+                     : "none";
+      text += grams_between(*one);
       const StudyEstimate* by_paper = find_estimate(summary.estimates, jnd_paper_mean.name,
                                                     {{"staircases", staircases},
                                                      {"condition", one->condition},
                                                      {"reference_g", one->text_at("reference_g")},
                                                      {"method", one->text_at("method")}});
       if (by_paper && by_paper->value && one->text_at("method") == jnd_method)
-        text += fmt::format(" (arithmetic mean {:.0f} g)", *by_paper->value);
+        text += fmt::format(" (arithmetic mean {} g)", in_grams(*by_paper->value));
       text += fmt::format(" at {:g} g", *one->reference_g);
       if (staircases != "all") text += " " + staircases;
       by_method[{one->text_at("method"), one->condition}].push_back(std::move(text));
