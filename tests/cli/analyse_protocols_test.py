@@ -221,7 +221,7 @@ class Protocols(SessionTest):
                         self.assertIn(f"{n} {task}", screen)
                     shown = [expected[task] in screen for task in tasks]
                     self.assertTrue(all(shown) or "more: see the tables" in screen, screen)
-                    for part in ("Results, with 95 % intervals", "Attention", "Next",
+                    for part in ("Results (95 % intervals in brackets)", "Attention", "Next",
                                  "nothing here is about people", f"heft analyse --db {db} --tables"):
                         self.assertIn(part, screen)
                     self.assertNotIn("decoupling (soft)", screen)

@@ -178,25 +178,26 @@ EstimateTable sensitivity_table() {
        column(threshold, Field::value, "threshold_75_g", "threshold g"),
        column(threshold, Field::low, "low_g", "95 % low"),
        column(threshold, Field::high, "high_g", "high"),
-       column(weber_fraction, Field::value, "weber_fraction", "Weber fraction", 3),
+       column(weber_fraction, Field::value, "weber_fraction", "Weber fraction", 2),
        column(weber_fraction, Field::low, "weber_fraction_low"),
        column(weber_fraction, Field::high, "weber_fraction_high"),
        column(indecision, Field::value, "indecision", "criterion half-width", 2),
-       column(indecision, Field::low, "indecision_low"),
-       column(indecision, Field::high, "indecision_high"),
+       column(indecision, Field::low, "indecision_low", "95 % low", 2),
+       column(indecision, Field::high, "indecision_high", "high", 2),
        column(sensitivity, Field::value, "sensitivity_per_g", "", 5),
        json_column(sensitivity, Field::low, "sensitivity_low_per_g"),
        json_column(sensitivity, Field::high, "sensitivity_high_per_g"),
-       column(lapse, Field::value, "lapse_rate", "lapse rate", 3),
-       column(lapse, Field::low, "lapse_rate_low"),
-       column(lapse, Field::high, "lapse_rate_high"),
+       column(lapse, Field::value, "lapse_rate", "lapse rate", 2),
+       column(lapse, Field::low, "lapse_rate_low", "95 % low", 2),
+       column(lapse, Field::high, "lapse_rate_high", "high", 2),
        column(sensitivity_sd, Field::value, "sd_log_sensitivity", "", 2),
        json_column(threshold, Field::n_trials, "n_trials"),
        json_column(threshold, Field::identifiable, "identifiable"),
        column(threshold, Field::why, "why", "no threshold: why")},
       "mixed indecision model (left, none, right): each participant has a sensitivity, a criterion "
       "half-width and a side bias; a lapse rate is shared. Threshold: of the median participant in "
-      "a forced choice, free of the criterion. Weber fraction: threshold by reference. Criterion "
+      "a forced choice, free of the criterion. Weber fraction: threshold by reference, as is its "
+      "interval. Criterion "
       "half-width: in SDs of the internal noise. "
       "Intervals: profile likelihood. Thresholds that are not identifiable are not printed.",
       TablePlace::results,
@@ -301,9 +302,8 @@ class SensitivitySection final : public Section {
     const auto thresholds = estimates_of(summary.estimates, threshold.name);
     for (const StudyEstimate* one : thresholds)
       if (one->value)
-        by_condition[one->condition].push_back(fmt::format("{:.0f} g [{:.0f}, {:.0f}] at {:g} g",
-                                                           *one->value, *one->low, *one->high,
-                                                           *one->reference_g));
+        by_condition[one->condition].push_back(fmt::format(
+            "{} g{} at {:g} g", in_grams(*one->value), grams_between(*one), *one->reference_g));
     std::vector<std::string> found;
     for (const auto& [condition, values] : by_condition)
       found.push_back(fmt::format("75 %-correct discrimination threshold in {}: {}.", condition,

@@ -249,22 +249,22 @@ const StudyEstimate& answers_in(const Summary& summary, const std::string& condi
 }
 
 // Chance applies to answers, so "I don't know" is counted apart: "with decoupling (C2) all 5 were
-// correct, 100 % [48, 100]".
+// correct, 100 % [48, 100]"; "without decoupling (C1) 42 % [21, 67] were "I don't know", and 12 %
+// [4, 32] of the others were correct".
 std::string condition_in_words(const Summary& summary, const std::string& condition) {
   const StudyEstimate& none = answers_in(summary, condition, "all", "I don't know");
   const StudyEstimate& correct = answers_in(summary, condition, "answered", "correct");
   const std::string where = in_condition(summary, condition);
   if (!correct.value)
     return fmt::format("{} all {} answers were \"I don't know\"", where, none.n_hits);
-  std::string text =
-      correct.n == 1
-          ? fmt::format("{} {} correct, {}", where, hits_in_words(correct.n_hits, correct.n_trials),
-                        percent_in_words(correct))
-          : fmt::format("{} {} were correct", where, percent_in_words(correct));
-  if (none.n_hits == 0) return text;
-  return text + (none.n == 1 ? fmt::format(", and {} \"I don't know\"", none.n_hits)
-                             : fmt::format(" of those answered ({:.0f} % were \"I don't know\")",
-                                           *none.value));
+  if (correct.n == 1)
+    return fmt::format(
+        "{} {} correct, {}{}", where, hits_in_words(correct.n_hits, correct.n_trials),
+        percent_in_words(correct),
+        none.n_hits == 0 ? "" : fmt::format(", and {} \"I don't know\"", none.n_hits));
+  if (none.n_hits == 0) return fmt::format("{} {} were correct", where, percent_in_words(correct));
+  return fmt::format("{} {} were \"I don't know\", and {} of the others were correct", where,
+                     percent_in_words(none), percent_in_words(correct));
 }
 
 std::string chance_in_words(const Summary& summary, const std::string& condition) {

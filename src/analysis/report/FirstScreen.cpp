@@ -232,8 +232,7 @@ std::string first_screen(const Summary& summary, const FirstScreenOptions& optio
     lines.push_back(heading);
     lines.insert(lines.end(), more.begin(), more.end());
   };
-  append("Results, with 95 % intervals in brackets",
-         list_lines(findings, available - remarks.size()));
+  append("Results (95 % intervals in brackets)", list_lines(findings, available - remarks.size()));
   append("Attention", remarks);
   append("Next", steps);
   return fmt::format("{}\n", fmt::join(lines, "\n"));

@@ -132,7 +132,7 @@ Judgment judge_blind(const StudyEstimate& answered_correct, double chance, doubl
     return {HypothesisVerdict::supported, figures + ": equivalent to chance"};
   if (high < blind.low || low > blind.high)
     return {HypothesisVerdict::not_supported, figures + ": not chance"};
-  return {HypothesisVerdict::inconclusive, figures + ": inconclusive, the interval is too wide"};
+  return {HypothesisVerdict::inconclusive, figures + ": the interval is too wide"};
 }
 
 Judgment judge_above_chance(const StudyEstimate& correct, double chance) {
