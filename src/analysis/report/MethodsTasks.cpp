@@ -110,13 +110,23 @@ std::string rule_of(const UpDownConfig& rule, const Comparison::Block& block) {
                                       : fmt::format(" but the first {}.", rule.discard_reversals));
 }
 
+// "Psi (Kontsevich & Tyler, 1999): function indecision, ..."
+std::string bayesian(std::string settings, Source source, Citations& citations) {
+  constexpr std::string_view no_width = ", interval width none";
+  if (const auto place = settings.find(no_width); place != std::string::npos)
+    settings.erase(place, no_width.size());
+  const auto end = settings.find(',');
+  const std::string rest = end == std::string::npos ? "" : settings.substr(end + 1);
+  return fmt::format("{} ({}):{}", settings.substr(0, end), citations.cite(source), rest);
+}
+
 // A kind of procedure that is not up-down, with its settings.
 std::string other_kind(const Procedure& procedure, Citations& citations) {
   const std::string settings = ProcedureKinds::described(procedure);
   if (procedure.get_if<Constant>()) return "the method of constant stimuli: " + settings;
-  if (procedure.get_if<Quest>()) return citations.cite(Source::quest) + ": " + settings;
-  if (procedure.get_if<QuestPlus>()) return citations.cite(Source::quest_plus) + ": " + settings;
-  if (procedure.get_if<Psi>()) return citations.cite(Source::psi) + ": " + settings;
+  if (procedure.get_if<Quest>()) return bayesian(settings, Source::quest, citations);
+  if (procedure.get_if<QuestPlus>()) return bayesian(settings, Source::quest_plus, citations);
+  if (procedure.get_if<Psi>()) return bayesian(settings, Source::psi, citations);
   return settings;
 }
 

@@ -149,6 +149,13 @@ TEST(Methods, OfForcedChoicesSayHowTheseWereMade) {
   EXPECT_THAT(text, AllOf(Not(HasSubstr("indecision model")), Not(HasSubstr("sorted"))));
 }
 
+TEST(Methods, NameABayesianProcedureAndItsSource) {
+  const std::string text =
+      all_of(methods_of(summarize({"x.db", {session_of("recommended.toml", 1)}}, "")));
+  EXPECT_THAT(text, HasSubstr("at 15 g by Psi (Kontsevich & Tyler, 1999): function indecision, "));
+  EXPECT_THAT(text, Not(HasSubstr("interval width none")));
+}
+
 TEST(Methods, ListWhoWasExcludedAndByWhichRule) {
   std::vector<SessionData> sessions;
   for (int i = 1; i <= 6; ++i) {
