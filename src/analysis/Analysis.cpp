@@ -92,6 +92,8 @@ struct IncludedCollector {
       summary.sections.push_back(section);
     }
     summary.all_tracks = std::move(tracks).result();
+    for (const ReferenceJnd& row : shared->judgments.jnds())
+      if (!row.overall.why_withheld.empty()) remove_estimates(summary.all_tracks, row.compared);
   }
 };
 

@@ -109,6 +109,15 @@ void TracksCollector::add(const SessionData& data) {
                   data.finished(), std::move(tracks)});
 }
 
+void remove_estimates(std::vector<SessionTracks>& all, const Compared& compared) {
+  const auto place = [](const Compared& of) {
+    return std::tie(of.block, of.reference_g, of.condition);
+  };
+  for (SessionTracks& session : all)
+    for (Track& track : session.tracks)
+      if (place(track.compared) == place(compared)) track.jnd_g.reset();
+}
+
 const SessionTracks* example_of(const std::vector<SessionTracks>& all) {
   const auto finished = std::ranges::find(all, true, &SessionTracks::finished);
   if (finished != all.end()) return &*finished;

@@ -55,6 +55,9 @@ class TracksCollector {
   std::vector<SessionTracks> all_;
 };
 
+/// Removes the estimates of staircases of a block, reference and condition.
+void remove_estimates(std::vector<SessionTracks>& all, const Compared& compared);
+
 /// The first finished one, or else the first; null: there is none.
 const SessionTracks* example_of(const std::vector<SessionTracks>& all);
 

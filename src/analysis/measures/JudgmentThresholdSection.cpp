@@ -20,6 +20,15 @@ constexpr Measure n_censored{"judgment_threshold_n_censored", "", "censored",
 constexpr Measure n_missing{"judgment_threshold_n_missing", "", "missing",
                             "participants without a threshold"};
 
+std::string in_words(const std::string& method) {
+  static const std::map<std::string, std::string> names{{"mean_of_reversals", "mean of reversals"},
+                                                        {"quest", "QUEST"},
+                                                        {"quest_plus", "QUEST+"},
+                                                        {"psi", "Psi"}};
+  const auto found = names.find(method);
+  return found == names.end() ? method : found->second;
+}
+
 class JudgmentThresholdSection final : public Section {
  public:
   void add(const SessionData& data) override {
@@ -56,15 +65,13 @@ class JudgmentThresholdSection final : public Section {
       if (one.measure != &threshold) continue;
       const std::string beside =
           one.reference_g ? fmt::format(" more than {:g} g", *one.reference_g) : "";
-      const std::string interval =
-          one.low ? fmt::format(" [{:.0f}, {:.0f}]", *one.low, *one.high) : "";
       const std::string found =
-          one.value ? fmt::format("{:.0f} g{}{}", *one.value, interval, beside)
+          one.value ? fmt::format("{} g{}{}", in_grams(*one.value), grams_between(one), beside)
                     : "not identifiable" +
                           (one.reference_g ? fmt::format(" at {:g} g", *one.reference_g) : "");
       const std::string why = one.value ? "" : fmt::format(" ({})", one.why);
       sentences.push_back(fmt::format("Threshold of \"{}\" ({}): {} {}{}.", one.text_at("block"),
-                                      one.text_at("method"), found,
+                                      in_words(one.text_at("method")), found,
                                       in_condition(summary, one.condition), why));
     }
     return sentences;

@@ -73,7 +73,7 @@ TEST(JudgmentThreshold, ThatIsNotIdentifiableHasAReason) {
             "exact in 1 of 2 participants, below a limit in 1; a mean needs more than "
             "half");
   EXPECT_THAT(readable(summary),
-              testing::HasSubstr("Threshold of \"heavy\" (mean_of_reversals): not identifiable"));
+              testing::HasSubstr("Threshold of \"heavy\" (mean of reversals): not identifiable"));
 }
 
 // Two exact thresholds of three determine no log-normal mean, however narrow its interval would be.
@@ -139,6 +139,7 @@ SessionData judge_of(int id, const std::function<double(double)>& share) {
   Judgment::Offer& offer = data.judgments["heavy"];
   offer.question.choices = {{"yes", "yes"}, {"no", "no"}};
   offer.question.kind = QuestionKind::choice;
+  offer.question.key = "heavy";
   offer.responses = {{"yes", Meaning::positive}, {"no", Meaning::negative}};
   UpDownConfig config;
   config.start = 400;
@@ -186,6 +187,8 @@ TEST(JudgmentThreshold, OfRandomAnswersIsNotIdentifiable) {
   EXPECT_FALSE(own.value.has_value());
   EXPECT_EQ(own.why, found.why);
   EXPECT_EQ(of(summary, "judgment_threshold_n_missing", "heavy", ""), 8);
+  ASSERT_EQ(summary.all_tracks.size(), 8u);
+  EXPECT_FALSE(summary.all_tracks[0].tracks.at(0).jnd_g.has_value()) << "nor in the charts";
 }
 
 TEST(JudgmentThreshold, OfPeopleWhoPerceiveTheMassIsIdentifiable) {
