@@ -86,6 +86,32 @@ std::string chart_of(const Summary& summary) {
   return std::ranges::find(charts, "beside_published", &Chart::name)->script;
 }
 
+// Otherwise all other values would be at 0.
+TEST(PublishedBeside, CutsIntervalsThatAreMuchLongerThanAllValues) {
+  Summary summary = summary_of(15);
+  const auto chart = [&](std::string_view name) {
+    const auto charts = charts_of(summary);
+    return *std::ranges::find(charts, name, &Chart::name);
+  };
+  const auto set_high = [&](double high_g) {
+    for (StudyEstimate& one : summary.estimates)
+      if (one.published && one.measure->unit == "g") {
+        one.value = 100;
+        one.low = 50;
+        one.high = high_g;
+      }
+  };
+  set_high(300);
+  EXPECT_THAT(chart("beside_published").script, HasSubstr("set xrange [0:*]"));
+  EXPECT_THAT(chart("jnd").script, HasSubstr("set yrange [0:*]"));
+  set_high(40000);
+  for (const char* name : {"beside_published", "jnd"}) {
+    const Chart cut = chart(name);
+    EXPECT_THAT(cut.script, Not(HasSubstr("range [0:*]")));
+    EXPECT_THAT(cut.caption, HasSubstr("Intervals that reach the frame extend beyond it."));
+  }
+}
+
 TEST(PublishedBeside, AModelsFiguresSaySo) {
   EXPECT_THAT(chart_of(summary_of(15, Purpose::simulated)),
               HasSubstr("'simulated participants (n = 2)'"));

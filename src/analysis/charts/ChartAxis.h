@@ -17,6 +17,31 @@ namespace heft {
 
 using Chosen = std::vector<const StudyEstimate*>;
 
+// Where an axis of values from 0 ends: intervals much longer than that are cut, because they would
+// shrink all others to points.
+class AxisEnd {
+ public:
+  void add(const StudyEstimate& one) {
+    add(one.value, one.high);
+    if (!one.published) return;
+    const auto interval = interval_of(*one.published);
+    add(one.published->value, interval ? std::optional(interval->high) : std::nullopt);
+  }
+  bool cuts() const { return furthest_ > most_values * most_; }
+  std::string text() const { return cuts() ? fmt::format("{:g}", most_values * most_) : "*"; }
+
+  static constexpr std::string_view caption = " Intervals that reach the frame extend beyond it.";
+
+ private:
+  void add(std::optional<double> value, std::optional<double> high) {
+    most_ = std::max(most_, value.value_or(0));
+    furthest_ = std::max(furthest_, high.value_or(0));
+  }
+
+  static constexpr double most_values = 3;
+  double most_ = 0, furthest_ = 0;
+};
+
 inline std::string text_of(const StudyEstimate& estimate, std::string_view coordinate) {
   const std::string text = estimate.text_at(coordinate);
   return coordinate == "reference_g" && !text.empty() ? text + " g" : text;

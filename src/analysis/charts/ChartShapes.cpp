@@ -72,11 +72,23 @@ class Drawing {
     }
     frame.axes = fmt::format("set xlabel {}\nset ylabel {}\n{}", gnuplot_quoted(spec_.x_label),
                              gnuplot_quoted(spec_.y_label), spec_.axes);
+    cut_axis(chart, frame);
     put_script(chart, summary_, frame, panels);
     return chart;
   }
 
  private:
+  void cut_axis(Chart& chart, PlotFrame& frame) const {
+    constexpr std::string_view open = "set yrange [0:*]";
+    const auto place = frame.axes.find(open);
+    AxisEnd end;
+    for (const Chosen* chosen : {&estimates_, &participants_})
+      for (const StudyEstimate* one : *chosen) end.add(*one);
+    if (place == std::string::npos || !end.cuts()) return;
+    frame.axes.replace(place, open.size(), fmt::format("set yrange [0:{}]", end.text()));
+    chart.caption += AxisEnd::caption;
+  }
+
   std::string look_of(std::size_t series, const StudyEstimate& one) const {
     const std::string& title = spec_.series[series].title;
     const std::string split = text_of(one, split_);

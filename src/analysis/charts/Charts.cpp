@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "analysis/charts/ChartAxis.h"
 #include "analysis/charts/Plot.h"
 #include "analysis/display/Phrases.h"
 #include "analysis/measures/Section.h"
@@ -121,8 +122,10 @@ Chart published_chart(const Summary& summary) {
       if (!value) return std::string();
       return fmt::format("{} {} {} {}\n", *value, low.value_or(*value), high.value_or(*value), y);
     };
+    AxisEnd end;
     for (std::size_t i = 0; i < figures.size(); ++i) {
       const StudyEstimate& one = *figures[i];
+      end.add(one);
       const double y = -static_cast<double>(i);
       const auto ends = interval_of(*one.published);
       found += line(one.value, one.low, one.high, y + 0.14);
@@ -133,9 +136,10 @@ Chart published_chart(const Summary& summary) {
     }
     PlotPanel& panel =
         panels.emplace_back(PlotPanel{unit == "g" ? "JND (g)" : "% of trials", "", {}});
-    panel.axes =
-        fmt::format("set yrange [{}:0.5]\nset xrange [0:{}]\nset ytics scale 0 ({})\n",
-                    0.5 - static_cast<double>(figures.size()), unit == "%" ? "100" : "*", tics);
+    panel.axes = fmt::format("set yrange [{}:0.5]\nset xrange [0:{}]\nset ytics scale 0 ({})\n",
+                             0.5 - static_cast<double>(figures.size()),
+                             unit == "%" ? "100" : end.text(), tics);
+    if (unit != "%" && end.cuts()) chart.caption += AxisEnd::caption;
     panel.add(found,
               "using 1:4:2:3 with xerrorbars pointtype 7 pointsize 0.9 linewidth 1.8 linecolor "
               "'#2f6fb0'",
