@@ -75,6 +75,18 @@ TEST(PublishedBeside, ThePapersArithmeticMeanStandsBesideOurs) {
   EXPECT_THAT(figures_of("E2-H2"), HasSubstr("arithmetic mean 0.85, published "));
 }
 
+TEST(PublishedBeside, FiguresFrom1000GramsHaveNoDecimals) {
+  std::vector<SessionData> sessions;
+  for (const double jnd_g : {1010.3, 1620.7, 3030.9}) {
+    const auto id = static_cast<std::int64_t>(sessions.size()) + 1;
+    sessions.push_back(session(id, std::to_string(id), Purpose::main, "human"));
+    add_staircase(sessions.back(), "s", 200, jnd_g);
+  }
+  const Summary summary = summarize({"x.db", sessions}, "");
+  const auto found = std::ranges::find(summary.hypotheses, "E2-H1", &Hypothesis::name);
+  EXPECT_THAT(found->figures.at(0), HasSubstr("arithmetic mean 1890, published 271.5 g"));
+}
+
 TEST(PublishedBeside, IsOnlyOfWhatThePaperMeasured) {
   const Summary summary = summary_of(300);
   for (const StudyEstimate* one : published_among(summary.estimates))

@@ -99,6 +99,8 @@ TEST_F(ReportFolder, AnswersFirstAndHoldsWhatAReviewerAsksFor) {
   write_report(summarize({"x.db", sessions}, ""), folder);
   const std::string page = read("report.html");
   EXPECT_THAT(page, HasSubstr("Did C2 work? Yes"));
+  EXPECT_THAT(page, Not(HasSubstr("<p>Masses are discriminated in C2.</p>"))) << "said above it";
+  EXPECT_THAT(page, HasSubstr("<p>Brackets are 95 % intervals.</p>"));
   EXPECT_LT(page.find("id=\"sorting\""), page.find("id=\"times_by_trial\""));
   EXPECT_LT(page.find("Did C2 work?"), page.find("Contents"));
   EXPECT_THAT(page, HasSubstr("the lamp &lt;fell&gt;"));

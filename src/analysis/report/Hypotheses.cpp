@@ -11,12 +11,17 @@
 namespace heft {
 
 namespace {
+// From 1000 on without decimals, which no study supports.
+std::string one_decimal(double value) {
+  return std::abs(value) < 1000 ? fmt::format("{:.1f}", value) : in_grams(value);
+}
+
 std::string beside(const StudyEstimate& one, std::string_view unit) {
   return one.published ? fmt::format("; published {:.1f}{}", one.published->value, unit) : "";
 }
 
 std::string within(const StudyEstimate& one) {
-  return one.low ? fmt::format(" [{:.1f}, {:.1f}]", *one.low, *one.high) : "";
+  return one.low ? fmt::format(" [{}, {}]", one_decimal(*one.low), one_decimal(*one.high)) : "";
 }
 
 std::string share_figure(std::string_view what, const StudyEstimate& share) {
@@ -68,7 +73,11 @@ std::optional<double> arithmetic_mean_g(const Summary& summary, const StudyEstim
 
 // "; arithmetic mean 92.1, published 91.1"
 std::string beside_paper(const std::optional<double>& mean, double published, int decimals) {
-  const std::string own = mean ? fmt::format("arithmetic mean {:.{}f}, ", *mean, decimals) : "";
+  const std::string own = mean
+                              ? fmt::format("arithmetic mean {}, ",
+                                            decimals == 1 ? one_decimal(*mean)
+                                                          : fmt::format("{:.{}f}", *mean, decimals))
+                              : "";
   return fmt::format("; {}published {:.{}f}", own, published, decimals);
 }
 
@@ -78,8 +87,8 @@ std::vector<std::string> jnd_figures(const Summary& summary) {
   std::vector<std::string> figures;
   for (const StudyEstimate* jnd : jnds_of(summary))
     figures.push_back(
-        fmt::format("JND{} at {:g} g: {:.1f} g{}, n = {}{} g", began(*jnd), *jnd->reference_g,
-                    *jnd->value, within(*jnd), jnd->n,
+        fmt::format("JND{} at {:g} g: {} g{}, n = {}{} g", began(*jnd), *jnd->reference_g,
+                    one_decimal(*jnd->value), within(*jnd), jnd->n,
                     beside_paper(arithmetic_mean_g(summary, *jnd), jnd->published->value, 1)));
   if (figures.empty()) figures.emplace_back(no_staircase);
   const StudyEstimate* rising = find_estimate(summary.estimates, "jnd_rising");
@@ -188,8 +197,8 @@ std::string why_not_comparable(const std::vector<const StudyEstimate*>& threshol
 std::string threshold_figures(const std::vector<const StudyEstimate*>& thresholds) {
   std::string text = "75 % thresholds";
   for (const StudyEstimate* one : thresholds)
-    text += fmt::format("{} {:.1f} g{} at {:g} g", one == thresholds.front() ? "" : ",",
-                        *one->value, within(*one), *one->reference_g);
+    text += fmt::format("{} {} g{} at {:g} g", one == thresholds.front() ? "" : ",",
+                        one_decimal(*one->value), within(*one), *one->reference_g);
   return text;
 }
 

@@ -218,9 +218,13 @@ std::string head_html(const Summary& summary) {
       "<h1>Heft report</h1>\n<p>{}</p>\n<p class=\"{}\">{}</p>\n",
       style, html_escaped(headline(summary)), summary.integrity.is_verified ? "note" : "unverified",
       html_escaped(integrity(summary)));
-  html += "<div class=\"first\">\n" + answer_html(summary);
-  for (const std::string& sentence : leading_sentences(summary))
-    html += fmt::format("<p>{}</p>\n", html_escaped(sentence));
+  const std::string answer = answer_html(summary);
+  html += "<div class=\"first\">\n" + answer;
+  for (const std::string& sentence : leading_sentences(summary)) {
+    const std::string shown = html_escaped(sentence);
+    const bool is_answer = shown.size() > 1 && answer.find(shown.substr(1)) != std::string::npos;
+    if (!is_answer) html += fmt::format("<p>{}</p>\n", shown);
+  }
   html += "</div>\n";
   const std::vector<std::string> attention = attention_sentences(summary);
   if (attention.empty()) return html;

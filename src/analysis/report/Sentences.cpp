@@ -1,6 +1,8 @@
 // The findings and their limits as sentences, for the first screen and the top of the report.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "analysis/measures/Section.h"
 #include "analysis/report/Notes.h"
 
@@ -53,6 +55,11 @@ std::vector<std::string> findings_of(const Summary& summary) {
 
 std::vector<std::string> leading_sentences(const Summary& summary) {
   std::vector<std::string> sentences = findings_of(summary);
+  const auto has_brackets = [](const std::string& sentence) {
+    return sentence.find('[') != std::string::npos;
+  };
+  if (std::ranges::any_of(sentences, has_brackets))
+    sentences.emplace_back("Brackets are 95 % intervals.");
   sentences.push_back(limits_sentence(summary));
   std::erase(sentences, "");
   return sentences;
