@@ -280,11 +280,8 @@ std::vector<ReferenceJnd> StaircaseCollector::jnds() const {
       jnds.back().published = published::jnd_at(compared.reference_g);
     if (const auto starts = starts_.find(compared); starts != starts_.end())
       jnds.back().starts = start_effect(starts->second, participants);
-    if (const auto p = answers_.p_of_random(compared); p >= 0.05)
-      jnds.back().withhold(
-          fmt::format("random answers explain these: in the same procedures they depend on the "
-                      "level as much in {:.0f} % of simulated studies",
-                      100 * *p));
+    if (const std::string why = answers_.why_random(compared); !why.empty())
+      jnds.back().withhold(why);
   }
   return jnds;
 }

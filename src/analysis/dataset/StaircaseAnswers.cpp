@@ -1,5 +1,7 @@
 #include "analysis/dataset/StaircaseAnswers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -12,7 +14,7 @@ namespace heft {
 
 namespace {
 bool is_tested(const Compared& compared) {
-  if (compared.method == QuestConfig::kind) return true;
+  if (compared.method == QuestConfig::kind || compared.method == same_different_method) return true;
   return !compared.block.empty() && !ProcedureKinds::is_bayesian(compared.method);
 }
 
@@ -23,6 +25,8 @@ struct Answered {
 
 std::optional<Answered> answered(const Attempt& attempt, const SessionData& data) {
   const TrialRow& trial = attempt.trial;
+  if (attempt.is_usable_comparison(ComparisonAnswers::same_different))
+    return Answered{trial.outcome == "difference", false};
   if (trial.plan.task == Comparison::task.name) {
     if (!attempt.is_usable_comparison() || !trial.chosen_slot) return std::nullopt;
     return Answered{*trial.chosen_slot == 2, true};
@@ -76,6 +80,15 @@ std::optional<double> StaircaseAnswers::p_of_random(const Compared& compared) co
     if (!answers.answers.empty()) people.push_back(answers);
   if (people.empty()) return std::nullopt;
   return p_of_random_answers(people);
+}
+
+std::string StaircaseAnswers::why_random(const Compared& compared) const {
+  const auto p = p_of_random(compared);
+  if (!p || *p < 0.05) return "";
+  return fmt::format(
+      "random answers explain these: in the same procedures they depend on the level as much in "
+      "{:.0f} % of simulated studies",
+      100 * *p);
 }
 
 }  // namespace heft

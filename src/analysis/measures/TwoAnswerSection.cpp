@@ -20,6 +20,22 @@ std::string why_not_constant(const SessionData& data, const TrialPlan& plan) {
   return "an adaptive procedure chose the differences by earlier answers";
 }
 
+// Up-down or QUEST, from 0 up: levels of either sign are the same difference.
+bool may_follow_random_answers(const SessionData& data, const std::string& staircase) {
+  const auto found = data.staircases.find(staircase);
+  if (found == data.staircases.end()) return false;
+  const Procedure& procedure = *found->second.before;
+  if (const UpDown* up_down = procedure.get_if<UpDown>())
+    return up_down->config().floor.value_or(-1) >= 0;
+  return procedure.get_if<Quest>() != nullptr;
+}
+
+Compared in_staircases(const Compared& compared) {
+  Compared key = compared;
+  key.method = same_different_method;
+  return key;
+}
+
 // One participant's estimate, still without a measure and a value.
 StudyEstimate own_estimate(const Compared& compared, const std::string& participant,
                            const AnswersByLevel& answers) {
@@ -45,6 +61,7 @@ std::vector<std::vector<const StudyEstimate*>> together(const Estimates& own) {
 }  // namespace
 
 void TwoAnswerSection::add(const SessionData& data) {
+  std::map<std::string, Compared> staircases;
   for (const Attempt& attempt : data.attempts) {
     const std::optional<TwoWayAnswer> answer = task_.answer_of(attempt);
     if (!answer) continue;
@@ -53,7 +70,16 @@ void TwoAnswerSection::add(const SessionData& data) {
     people_[compared][data.participant()][answer->level_g][answer->counted ? 1 : 0] += 1;
     if (const std::string why = why_not_constant(data, plan); !why.empty())
       not_constant_[{compared, data.participant()}] = why;
+    if (task_.may_be_random && may_follow_random_answers(data, plan.staircase))
+      staircases.emplace(plan.staircase, in_staircases(compared));
   }
+  staircases_.add(data, staircases);
+}
+
+void TwoAnswerSection::put_random() {
+  for (const auto& [compared, people] : people_)
+    if (const std::string why = staircases_.why_random(in_staircases(compared)); !why.empty())
+      random_[compared] = why;
 }
 
 Estimates TwoAnswerSection::of_participants(const Summary&) const {
@@ -61,7 +87,10 @@ Estimates TwoAnswerSection::of_participants(const Summary&) const {
   for (const auto& [compared, people] : people_)
     for (const auto& [participant, answers] : people) {
       const StudyEstimate own = own_estimate(compared, participant, answers);
-      put_fit(all, own, answers);
+      const auto random = random_.find(compared);
+      const bool is_random =
+          random != random_.end() && not_constant_.contains({compared, participant});
+      put_fit(all, own, answers, is_random ? random->second : "");
       put_goodness(all, own, goodness_.at({compared, participant}));
     }
   for (StudyEstimate& one : own_exponents(all, task_.threshold, task_.exponent)) all.push_back(one);
@@ -69,6 +98,7 @@ Estimates TwoAnswerSection::of_participants(const Summary&) const {
 }
 
 void TwoAnswerSection::put(Summary& summary) {
+  put_random();
   for (const auto& [compared, people] : people_)
     for (const auto& [participant, answers] : people)
       goodness_[{compared, participant}] = summary.checks_models
@@ -95,9 +125,10 @@ GoodnessOfFit TwoAnswerSection::goodness(const Person& person,
   return why != not_constant_.end() ? GoodnessOfFit{.why = why->second} : task_.check(answers);
 }
 
-void TwoAnswerSection::put_fit(Estimates& all, StudyEstimate own,
-                               const AnswersByLevel& answers) const {
-  const TwoAnswerFit found = task_.fit(answers);
+void TwoAnswerSection::put_fit(Estimates& all, StudyEstimate own, const AnswersByLevel& answers,
+                               const std::string& why_random) const {
+  TwoAnswerFit found = task_.fit(answers);
+  if (found.why.empty()) found.why = why_random;
   const auto put = [&](const Measure& measure, const FittedParameter& fitted) {
     own.measure = &measure;
     own.method = task_.method;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "analysis/dataset/ComparisonTrials.h"
+#include "analysis/dataset/StaircaseAnswers.h"
 #include "analysis/measures/Section.h"
 #include "inference/Fit.h"
 #include "inference/checks/GoodnessOfFit.h"
@@ -35,6 +36,8 @@ struct TwoAnswerTask {
   std::optional<TwoWayAnswer> (*answer_of)(const Attempt& attempt);
   TwoAnswerFit (*fit)(const AnswersByLevel& answers);
   GoodnessOfFit (*check)(const AnswersByLevel& answers);
+  /// Whether random answers in adaptive staircases may pass for sensitivity.
+  bool may_be_random;
   std::string method;  ///< of the fit
 
   const Measure &threshold, &weber_fraction, &exponent, &second;
@@ -69,7 +72,9 @@ class TwoAnswerSection final : public Section {
   using Person = std::pair<Compared, std::string>;
 
   GoodnessOfFit goodness(const Person& person, const AnswersByLevel& answers) const;
-  void put_fit(Estimates& all, StudyEstimate own, const AnswersByLevel& answers) const;
+  void put_random();
+  void put_fit(Estimates& all, StudyEstimate own, const AnswersByLevel& answers,
+               const std::string& why_random) const;
   void put_goodness(Estimates& all, StudyEstimate own, const GoodnessOfFit& found) const;
   StudyEstimate rejected_of(const std::vector<const StudyEstimate*>& people) const;
   void put_shares(Estimates& all, const Compared& compared, const AnswersByPerson& people) const;
@@ -80,6 +85,8 @@ class TwoAnswerSection final : public Section {
   TwoAnswerTask task_;
   std::map<Compared, AnswersByPerson> people_;
   std::map<Person, std::string> not_constant_;  // and why
+  StaircaseAnswers staircases_;
+  std::map<Compared, std::string> random_;  // where random answers explain all of staircases
   std::map<Person, GoodnessOfFit> goodness_;
 };
 

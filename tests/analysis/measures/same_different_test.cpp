@@ -2,6 +2,7 @@
 // likelihood), and that they stay out of the figures of three-way comparisons.
 #include <gmock/gmock.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -46,6 +47,58 @@ TEST(SameDifferent, AnswersGiveThresholdAndCriterionOfDifferencesOfEitherSign) {
   EXPECT_EQ(*figure(summary, "same_different_different", {{"level_g", "0"}}).value, 25)
       << "false alarms";
   EXPECT_THAT(readable(summary), testing::HasSubstr("Same-different: the 75 % threshold is 51 g"));
+}
+
+// Runs an up-down staircase. @param share of "different" at a difference
+SessionData run_staircase(std::int64_t id, const std::function<double(double)>& share) {
+  SessionData data = session(id, "p" + std::to_string(id));
+  UpDownConfig config;
+  config.start = 400;
+  config.steps = {120, 60, 30};
+  config.floor = 0;
+  config.stop_reversals = 10;
+  Procedure procedure("up-down", config);
+  data.staircases["up-down"] = {std::make_shared<const Procedure>(procedure)};
+  RandomStream stream(static_cast<std::uint64_t>(id), "answers");
+  while (!procedure.finished()) {
+    const double level_g = procedure.next_level(stream);
+    const bool different = stream.coin(share(level_g));
+    Attempt& attempt = add_comparison(data, "up-down", 200, level_g);
+    attempt.answers_offered = ComparisonAnswers::same_different;
+    attempt.trial.plan.condition = "C2";
+    attempt.trial.outcome = different ? "difference" : "no_difference";
+    procedure.respond({different, {}}, level_g);
+  }
+  EstimateRow row;
+  row.staircase = "up-down";
+  data.estimates.push_back(row);
+  return data;
+}
+
+int n_with_threshold(const Summary& summary) {
+  int n = 0;
+  for (int id = 1; id <= 12; ++id)
+    n += figure(summary, "same_different_threshold_75", {{"participant", "p" + std::to_string(id)}})
+             .value.has_value();
+  return n;
+}
+
+// A participant's own fit alone finds a sensitivity in some staircases of coins.
+TEST(SameDifferent, RandomAnswersInStaircasesHaveNoThreshold) {
+  std::vector<SessionData> random, sensitive_people;
+  for (int id = 1; id <= 12; ++id) {
+    random.push_back(run_staircase(id, [](double) { return 0.5; }));
+    sensitive_people.push_back(
+        run_staircase(id, [](double g) { return 0.02 + 0.96 * normal_cdf((g - 100) / 50); }));
+  }
+  const Summary summary = summarized(random);
+  EXPECT_EQ(n_with_threshold(summary), 0);
+  const StudyEstimate mean = figure(summary, "same_different_threshold_75", {{"participant", ""}});
+  EXPECT_FALSE(mean.value.has_value());
+  EXPECT_THAT(mean.why, testing::HasSubstr("random answers explain these"));
+  EXPECT_GT(n_with_threshold(summarized(sensitive_people)), 6);
+  for (SessionData& data : random) data.staircases.clear();
+  EXPECT_GT(n_with_threshold(summarized(random)), 0) << "nothing to compare with";
 }
 
 // The goodness of fit itself is tested in tests/inference.
