@@ -120,13 +120,13 @@ class Participant:
             time.sleep(0.3)
 
     def push(self, n):
-        """The cube number n, twice, with the dragged box, and back. On a busy machine pictures come so
-        late that the box jumps, and a jump pushes nothing."""
+        """The cube number n, four times, with the dragged box, and back. On a busy machine pictures
+        come so late that the box jumps, and a jump pushes nothing."""
         effectors, cubes = self.eyes.objects()
         x, y = middle(effectors[0])
         to_x, to_y = middle(cubes[n])
-        stroke = [["mousemove", to_x, to_y], ["mousemove", to_x, y]]
-        for move in (["mousemove", x, y, "mousedown", 1], ["mousemove", to_x, y], *stroke, *stroke,
+        stroke = [["mousemove", to_x, to_y], ["mousemove", to_x, y]] * 4
+        for move in (["mousemove", x, y, "mousedown", 1], ["mousemove", to_x, y], *stroke,
                      ["mousemove", x, y], ["mouseup", 1]):
             self.screen.do(*move)
             time.sleep(0.5)
