@@ -1,9 +1,11 @@
 // Replacing a file keeps the old one.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "base/Error.h"
 #include "base/files/TextFile.h"
@@ -90,6 +92,20 @@ TEST(CreateFile, WritesOverNothingAndFollowsNoLink) {
   EXPECT_FALSE(create_file(folder.file("link"), 0600));
   EXPECT_FALSE(fs::exists(folder.file("nowhere")));
   EXPECT_THROW(create_file(folder.file("no/such/file"), 0600), Error);
+}
+
+TEST(TextFile, HugeFilesAreRefusedUnread) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("huge.toml");
+  std::ofstream(path) << "a";
+  std::filesystem::resize_file(path, 10'000'000'000);  // sparse
+  try {
+    read_text_file(path);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 fmt::format("can't read {}: it has 9536 MB, expected at most 256", path).c_str());
+  }
 }
 
 }  // namespace

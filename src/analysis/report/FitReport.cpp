@@ -20,7 +20,7 @@ std::string title(const NamedFit& named) {
   const Fit& fit = named.fit;
   std::string text = named.group ? fmt::format("{}: ", *named.group) : "";
   text += fmt::format("{} at {}", counted(std::lround(fit.n_trials), "trial"),
-                      counted(fit.n_levels, "level"));
+                      counted(static_cast<std::int64_t>(fit.n_levels), "level"));
   if (fit.log_likelihood) text += fmt::format(", log likelihood {:.4f}", *fit.log_likelihood);
   return text;
 }

@@ -70,6 +70,10 @@ std::string read_text_file(const std::string& path) {
     throw Error(fmt::format("can't read {}: it is a folder, expected a file", path));
   if (fs::exists(there) && !fs::is_regular_file(there))
     throw Error(fmt::format("can't read {}: it is a device or a pipe, expected a file", path));
+  constexpr std::uintmax_t most_mb = 256, mb = 1 << 20;
+  if (const auto size = fs::file_size(path, unknown); !unknown && size > most_mb * mb)
+    throw Error(
+        fmt::format("can't read {}: it has {} MB, expected at most {}", path, size / mb, most_mb));
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(fmt::format("can't read {}: {}", path, std::strerror(errno)));
   std::ostringstream text;

@@ -8,8 +8,8 @@
 
 namespace heft {
 
-/// @throws Error with the file and the system's reason; also for pipes, devices and sockets, where
-///   reading could block forever
+/// @throws Error with the file and the system's reason; also for files above 256 MB, and for pipes,
+///   devices and sockets, where reading could block forever
 std::string read_text_file(const std::string& path);
 
 /// Replaces a file atomically. A copy of the old file remains as PATH.before, or as PATH.before2,

@@ -76,14 +76,17 @@ std::map<std::string, std::vector<std::string>> by_folder(const std::set<std::st
 }
 
 void print_copies(const std::string& folder, std::vector<std::string> names) {
-  constexpr std::size_t most_named = 3;
-  const auto others = std::ranges::stable_partition(
-      names, [](const std::string& name) { return name.find(".db") != std::string::npos; });
-  for (auto name = names.begin(); name != others.begin(); ++name) print("  {}/{}\n", folder, *name);
-  if (others.size() > most_named)
-    print("  {} ({} files, such as {})\n", folder, others.size(), others.front());
-  else
-    for (const std::string& name : others) print("  {}/{}\n", folder, name);
+  constexpr std::ptrdiff_t most_named = 3;
+  const auto is_log = [](const std::string& name) {
+    const std::string extension = std::filesystem::path(name).extension();
+    return extension != ".csv" && extension != ".tsv" && extension != ".json" &&
+           extension != ".html";
+  };
+  const auto texts = std::stable_partition(names.begin(), names.end(), is_log);
+  const bool counts_texts = names.end() - texts > most_named;
+  for (auto name = names.begin(); name != (counts_texts ? texts : names.end()); ++name)
+    print("  {}/{}\n", folder, *name);
+  if (counts_texts) print("  {} ({} files, such as {})\n", folder, names.end() - texts, *texts);
 }
 
 void report_copies(const Found& found, const WithdrawOptions& options) {
