@@ -146,7 +146,7 @@ void RowWriter::write_event(std::int64_t session_id, const RecordedEvent& record
   if (changes.trial) take_trial(session_id, *changes.trial);
   write_event_row(session_id, changes.attempt_index, event);
   if (changes.setup) write_setup(session_id, database_.getLastInsertRowid(), *changes.setup);
-  for (const CubeRow& cube : changes.cubes) take_cube(session_id, cube);
+  for (const CubeRow& cube : changes.cubes) changed_cubes_[{cube.attempt_index, cube.slot}] = cube;
   static const std::string answer = keyed_insert<AnswerRow>("answer", "trial_id"),
                            reversal = keyed_insert<ReversalRow>("reversal", "session_id, trial_id"),
                            estimate = keyed_insert<EstimateRow>("estimate", "session_id"),
@@ -205,15 +205,9 @@ void RowWriter::take_trial(std::int64_t session_id, const TrialRow& trial) {
   }
 }
 
-void RowWriter::take_cube(std::int64_t session_id, const CubeRow& cube) {
-  if (!changed_cubes_.empty() && changed_cubes_.begin()->second.attempt_index != cube.attempt_index)
-    write_changed(session_id);
-  changed_cubes_[cube.slot] = cube;
-}
-
 // The trial comes last: its plan has the newest masses.
 void RowWriter::write_changed(std::int64_t session_id) {
-  for (const auto& [slot, cube] : std::exchange(changed_cubes_, {})) write_cube(session_id, cube);
+  for (const auto& [place, cube] : std::exchange(changed_cubes_, {})) write_cube(session_id, cube);
   if (const auto trial = std::exchange(changed_trial_, std::nullopt))
     write_trial(session_id, *trial);
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "record/schema/Digests.h"
 #include "record/stream/EventSink.h"
@@ -65,7 +66,6 @@ class RowWriter {
   void write_event_row(std::int64_t session_id, int attempt_index, const Event& event);
   void write_frame(std::int64_t session_id, const FrameRow& frame);
   void take_trial(std::int64_t session_id, const TrialRow& trial);
-  void take_cube(std::int64_t session_id, const CubeRow& cube);
   void write_changed(std::int64_t session_id);
   void write_trial(std::int64_t session_id, const TrialRow& trial);
   void write_cubes_of_plan(std::int64_t session_id, const TrialRow& trial);
@@ -83,9 +83,9 @@ class RowWriter {
   /// Rows of the current attempt that are newer than in the log. A trial changes with each contact
   /// and answer; only its last row of a transaction is written.
   std::optional<TrialRow> changed_trial_;
-  std::map<int, CubeRow> changed_cubes_;     ///< by slot
-  std::set<std::string> tasks_;              ///< with words in the log
-  int n_new_events_ = 0, n_new_frames_ = 0;  ///< since the last write_rest()
+  std::map<std::pair<int, int>, CubeRow> changed_cubes_;  ///< by attempt and slot
+  std::set<std::string> tasks_;                           ///< with words in the log
+  int n_new_events_ = 0, n_new_frames_ = 0;               ///< since the last write_rest()
   DigestChain chain_;
   RowDigest digest_;  ///< of the current row
 };
