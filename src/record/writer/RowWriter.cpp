@@ -54,7 +54,7 @@ void RowWriter::insert(const std::string& sql, const Row& row, const Keys&... ke
 
 void RowWriter::forget() {
   last_attempt_.reset();
-  changed_trial_.reset();
+  changed_trials_.clear();
   changed_cubes_.clear();
   tasks_.clear();
   n_new_events_ = n_new_frames_ = 0;
@@ -88,7 +88,10 @@ void RowWriter::write_info_digest(std::int64_t session_id) {
 }
 
 void RowWriter::write_rest(std::int64_t session_id) {
-  write_changed(session_id);
+  // Trials come last: their plans have the newest masses.
+  for (const auto& [place, cube] : std::exchange(changed_cubes_, {})) write_cube(session_id, cube);
+  for (const auto& [attempt, trial] : std::exchange(changed_trials_, {}))
+    write_trial(session_id, trial);
   static const std::string sql =
       "UPDATE session SET n_events = n_events + ?, n_frames = n_frames + ? WHERE session_id = ?";
   const int events = std::exchange(n_new_events_, 0), frames = std::exchange(n_new_frames_, 0);
@@ -195,21 +198,10 @@ void RowWriter::write_setup(std::int64_t session_id, std::int64_t event_id,
 
 // The first row of an attempt is written immediately, because others refer to it.
 void RowWriter::take_trial(std::int64_t session_id, const TrialRow& trial) {
-  if (find_attempt(session_id, trial.attempt_index)) {
-    if (changed_trial_ && changed_trial_->attempt_index != trial.attempt_index)
-      write_changed(session_id);
-    changed_trial_ = trial;
-  } else {
-    write_changed(session_id);
+  if (find_attempt(session_id, trial.attempt_index))
+    changed_trials_[trial.attempt_index] = trial;
+  else
     write_trial(session_id, trial);
-  }
-}
-
-// The trial comes last: its plan has the newest masses.
-void RowWriter::write_changed(std::int64_t session_id) {
-  for (const auto& [place, cube] : std::exchange(changed_cubes_, {})) write_cube(session_id, cube);
-  if (const auto trial = std::exchange(changed_trial_, std::nullopt))
-    write_trial(session_id, *trial);
 }
 
 void RowWriter::write_trial(std::int64_t session_id, const TrialRow& trial) {

@@ -37,7 +37,7 @@ class RowWriter {
   /// Writes or replaces an answer about the participant.
   void write_info(std::int64_t session_id, const std::string& key, const std::string& value);
 
-  /// Writes the newest rows of the current attempt, and the session's numbers of events and frames.
+  /// Writes the newest rows of trials and cubes, and the session's numbers of events and frames.
   /// Call it before each commit.
   void write_rest(std::int64_t session_id);
 
@@ -66,7 +66,6 @@ class RowWriter {
   void write_event_row(std::int64_t session_id, int attempt_index, const Event& event);
   void write_frame(std::int64_t session_id, const FrameRow& frame);
   void take_trial(std::int64_t session_id, const TrialRow& trial);
-  void write_changed(std::int64_t session_id);
   void write_trial(std::int64_t session_id, const TrialRow& trial);
   void write_cubes_of_plan(std::int64_t session_id, const TrialRow& trial);
   void withdraw(std::int64_t session_id, const Changes& changes);
@@ -80,9 +79,9 @@ class RowWriter {
   SQLite::Database& database_;
   std::map<std::string, std::unique_ptr<SQLite::Statement>> statements_;
   std::optional<Attempt> last_attempt_;
-  /// Rows of the current attempt that are newer than in the log. A trial changes with each contact
-  /// and answer; only its last row of a transaction is written.
-  std::optional<TrialRow> changed_trial_;
+  /// Rows that are newer than in the log. A trial changes with each contact and answer; only its
+  /// last row of a transaction is written.
+  std::map<int, TrialRow> changed_trials_;                ///< by attempt
   std::map<std::pair<int, int>, CubeRow> changed_cubes_;  ///< by attempt and slot
   std::set<std::string> tasks_;                           ///< with words in the log
   int n_new_events_ = 0, n_new_frames_ = 0;               ///< since the last write_rest()
