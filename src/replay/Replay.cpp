@@ -284,12 +284,13 @@ std::optional<std::string> fault_of_log(const LogReader& reader, const std::stri
 }
 
 std::string require_verified(const std::string& db, const std::vector<std::int64_t>& session_ids,
-                             const std::function<void(double)>& progress) {
+                             const std::function<void(double)>& progress,
+                             std::string_view unverified) {
   const LogReader reader(db);
   if (const auto fault = fault_of_log(reader, db, session_ids, progress))
     throw Error(fmt::format("{} is not verified: {}. Inspect it with heft replay --db {}; "
-                            "--unverified prints its figures nevertheless, with a mark",
-                            db, *fault, shell_quoted(db)),
+                            "--unverified {}",
+                            db, *fault, shell_quoted(db), unverified),
                 ExitCode::diverged);
   return reader.head();
 }

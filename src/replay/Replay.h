@@ -58,10 +58,13 @@ std::optional<std::string> fault_of_log(const LogReader& reader, const std::stri
 
 /// Verifies sessions without simulating frames, one at a time, before their figures are printed.
 /// @param session_ids empty: all
+/// @param unverified what the option of that name does, for the message
 /// @return the log's head; empty for a log without sealed sessions
 /// @throws Error (diverged) naming the first row that differs
-std::string require_verified(const std::string& db, const std::vector<std::int64_t>& session_ids,
-                             const std::function<void(double)>& progress);
+std::string require_verified(
+    const std::string& db, const std::vector<std::int64_t>& session_ids,
+    const std::function<void(double)>& progress,
+    std::string_view unverified = "prints its figures nevertheless, with a mark");
 
 /// A witness: a head, or its first characters, that was noted when a session ended.
 struct Witness {

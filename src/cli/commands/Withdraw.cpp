@@ -65,39 +65,32 @@ void confirm(const SessionFacts& facts, const WithdrawOptions& options) {
     throw Error("that is not the participant's id; nothing was removed", ExitCode::usage);
 }
 
-// Names of files by their folders: an export has a dozen, which are counted; logs are all named.
-std::map<std::string, std::vector<std::string>> by_folder(const std::set<std::string>& files) {
-  std::map<std::string, std::vector<std::string>> folders;
-  for (const std::string& file : files) {
-    const std::filesystem::path path(file);
-    folders[path.parent_path().string()].push_back(path.filename().string());
+// An export has a dozen tables, which are counted.
+void print_texts(const std::set<std::string>& texts) {
+  constexpr std::size_t most_named = 3;
+  std::map<std::string, std::vector<std::string>> by_folder;
+  for (const std::string& text : texts) {
+    const std::filesystem::path path(text);
+    by_folder[path.parent_path().string()].push_back(path.filename().string());
   }
-  return folders;
-}
-
-void print_copies(const std::string& folder, std::vector<std::string> names) {
-  constexpr std::ptrdiff_t most_named = 3;
-  const auto is_log = [](const std::string& name) {
-    const std::string extension = std::filesystem::path(name).extension();
-    return extension != ".csv" && extension != ".tsv" && extension != ".json" &&
-           extension != ".html";
-  };
-  const auto texts = std::stable_partition(names.begin(), names.end(), is_log);
-  const bool counts_texts = names.end() - texts > most_named;
-  for (auto name = names.begin(); name != (counts_texts ? texts : names.end()); ++name)
-    print("  {}/{}\n", folder, *name);
-  if (counts_texts) print("  {} ({} files, such as {})\n", folder, names.end() - texts, *texts);
+  for (const auto& [folder, names] : by_folder)
+    if (names.size() > most_named)
+      print("  {} ({} files, such as {})\n", folder, names.size(), names.front());
+    else
+      for (const std::string& name : names) print("  {}/{}\n", folder, name);
 }
 
 void report_copies(const Found& found, const WithdrawOptions& options) {
-  const std::set<std::string> copies =
+  const CopiesOfSession copies =
       copies_of_session(found.folders, options.db, found.facts.row.header);
   print("files that hold or may hold copies, in {}:\n",
         fmt::format("{}", fmt::join(found.folders, ", ")));
-  for (const auto& [folder, names] : by_folder(copies)) print_copies(folder, names);
+  for (const std::string& log : copies.logs) print("  {}\n", log);
+  print_texts(copies.texts);
   for (const std::string& folder : found.pictures) print("  {} (camera pictures)\n", folder);
   for (const std::string& video : found.videos) print("  {} (video)\n", video);
-  if (copies.empty() && found.pictures.empty() && found.videos.empty()) print("  none found\n");
+  if (copies.logs.empty() && copies.texts.empty() && found.pictures.empty() && found.videos.empty())
+    print("  none found\n");
   print(
       "Delete them, and what was given away: pseudonymised exports do not name the participant "
       "and are not found here.\n");
@@ -120,22 +113,16 @@ void refuse_if_left_in_file(const std::string& why, const WithdrawOptions& optio
                   *options.session, options.db, why, shell_quoted(options.db), *options.session));
 }
 
-// What is removed cannot be inspected afterwards, and the rest is sealed as it is.
-void require_sound(const std::string& db) {
-  if (const auto fault = fault_of_log(LogReader(db), db, {}, [](double) {}))
-    throw Error(fmt::format("{} is not verified: {}; nothing was removed. Inspect it with heft "
-                            "replay --db {}; --unverified removes the session nevertheless",
-                            db, *fault, shell_quoted(db)),
-                ExitCode::diverged);
-}
-
 void withdraw(const WithdrawOptions& options) {
   if (!options.session)
     throw Error(fmt::format("--session N is required: heft list --db {} shows them",
                             shell_quoted(options.db)),
                 ExitCode::usage);
   refuse_special_file(options.db);
-  if (!options.unverified) require_sound(options.db);
+  // What is removed cannot be inspected afterwards, and the rest is sealed as it is.
+  if (!options.unverified)
+    require_verified(
+        options.db, {}, [](double) {}, "removes the session nevertheless");
   const Found found = found_in(LogReader(options.db), options);
   if (found.facts.row.state == SessionState::withdrawn) {
     refuse_if_left_in_file(finish_withdrawals(options.db), options);

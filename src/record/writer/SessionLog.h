@@ -104,11 +104,15 @@ Withdrawal withdraw_session(const std::string& db, std::int64_t session_id,
 /// @throws Error if the log is in use or cannot be opened
 std::string finish_withdrawals(const std::string& db);
 
-/// Files in folders, and the folders in them, that still hold a session: other logs (backups,
-/// earlier versions) by participant and start time, and texts (exports, reports) by the
-/// participant's id.
+/// Files that still hold a session, or may.
+struct CopiesOfSession {
+  std::set<std::string> logs;   ///< backups and earlier versions, by participant and start time
+  std::set<std::string> texts;  ///< exports and reports, by the participant's id
+};
+
+/// Searches folders and the folders in them.
 /// @param db the log itself, which is not listed  @param header of the session
-std::set<std::string> copies_of_session(const std::set<std::string>& folders, const std::string& db,
-                                        const SessionHeader& header);
+CopiesOfSession copies_of_session(const std::set<std::string>& folders, const std::string& db,
+                                  const SessionHeader& header);
 
 }  // namespace heft

@@ -129,18 +129,24 @@ bool names_participant(const std::string& text, const std::string& participant) 
   return false;
 }
 
-bool is_copy(const fs::path& file, const std::string& participant, const std::string& started_utc) {
-  constexpr std::uintmax_t longest_text = 64 << 20;
-  constexpr std::array<std::string_view, 4> texts{".csv", ".tsv", ".json", ".html"};
-  const bool is_text =
-      std::ranges::find(texts, std::string_view(file.extension().native())) != texts.end();
-  const bool is_log = is_database(file);
+// @return whether a database is a log with the session; true if it cannot be read, because a
+// damaged or unfinished copy may hold anything
+bool may_hold_session(const fs::path& file, const SessionHeader& header) {
   try {
-    if (is_log) return holds_session(file, participant, started_utc);
-    return is_text && fs::file_size(file) <= longest_text &&
-           names_participant(read_text_file(file.string()), participant);
+    return holds_session(file, header.participant, header.started_utc);
   } catch (const std::exception&) {
-    return is_log;  // a damaged or unfinished copy may hold anything
+    return true;
+  }
+}
+
+bool is_text_about(const fs::path& file, const std::string& participant) {
+  constexpr std::array<std::string_view, 4> texts{".csv", ".tsv", ".json", ".html"};
+  if (std::ranges::find(texts, std::string_view(file.extension().native())) == texts.end())
+    return false;
+  try {
+    return names_participant(read_text_file(file.string()), participant);
+  } catch (const Error&) {
+    return false;  // not readable
   }
 }
 }  // namespace
@@ -165,19 +171,25 @@ std::string finish_withdrawals(const std::string& db) {
   return overwrite_removed_rows(file);
 }
 
-std::set<std::string> copies_of_session(const std::set<std::string>& folders, const std::string& db,
-                                        const SessionHeader& header) {
-  std::set<std::string> copies;
+CopiesOfSession copies_of_session(const std::set<std::string>& folders, const std::string& db,
+                                  const SessionHeader& header) {
+  CopiesOfSession copies;
   std::set<fs::path> seen{fs::weakly_canonical(db)};  // a folder may be in another
   const auto options = fs::directory_options::skip_permission_denied;
   for (const std::string& folder : folders) {
     std::error_code unreadable;
     for (auto entry = fs::recursive_directory_iterator(folder, options, unreadable);
-         !unreadable && entry != fs::recursive_directory_iterator(); entry.increment(unreadable))
-      if (entry->is_regular_file(unreadable) &&
-          seen.insert(fs::weakly_canonical(entry->path())).second &&
-          is_copy(entry->path(), header.participant, header.started_utc))
-        copies.insert(entry->path().string());
+         !unreadable && entry != fs::recursive_directory_iterator(); entry.increment(unreadable)) {
+      if (!entry->is_regular_file(unreadable) ||
+          !seen.insert(fs::weakly_canonical(entry->path())).second)
+        continue;
+      const fs::path& file = entry->path();
+      if (!is_database(file)) {
+        if (is_text_about(file, header.participant)) copies.texts.insert(file.string());
+      } else if (may_hold_session(file, header)) {
+        copies.logs.insert(file.string());
+      }
+    }
   }
   return copies;
 }
