@@ -47,7 +47,7 @@ class Examples(SessionTest):
         alone = [{block["kind"] for block in read(path)["block"]} - WITHOUT_TRIALS - {"introduction"}
                  for path in self.protocols]
         for task in tasks - {"introduction"}:
-            self.assertIn({task}, alone, "no file of its own")
+            self.assertIn({task}, alone, "no file for this one")
 
         comparisons = [block for block in self.blocks if block["kind"] == "comparison"]
         answers = self.words_of('kind = "comparison"\nanswers = "unknown"')
