@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
+#include <tuple>
 
 #include "base/Error.h"
 #include "base/Names.h"
@@ -12,7 +14,6 @@
 #include "physics/DecouplingSimulator.h"
 #include "physics/auto/Choice.h"
 #include "protocol/Protocol.h"
-#include "record/export/Export.h"
 #include "record/writer/Backup.h"
 #include "replay/Replay.h"
 #include "session/Session.h"
@@ -182,11 +183,36 @@ void add_unverified(Command& command, bool& unverified) {
                    "do not check first whether the log was changed; all figures are marked");
 }
 
+namespace {
+// A session that is in two logs would count twice.
+void refuse_copies(const std::vector<std::string>& databases) {
+  using Key = std::tuple<std::string, std::string, std::uint64_t, std::string>;
+  std::map<Key, std::pair<std::string, std::int64_t>> found;
+  for (const std::string& database : databases) {
+    const auto sessions = LogReader(database).sessions();
+    if (sessions.empty()) throw Error(fmt::format("{} holds no session yet", database));
+    for (const auto& [id, header, state] : sessions) {
+      if (state == SessionState::withdrawn) continue;
+      const auto [at, is_new] = found.try_emplace(
+          {header.participant, header.started_utc, header.seed, header.protocol_sha256}, database,
+          id);
+      const auto& [other, other_id] = at->second;
+      if (is_new || other == database) continue;
+      if (std::filesystem::equivalent(other, database))
+        throw Error(fmt::format("{} is given twice", database), ExitCode::usage);
+      throw Error(
+          fmt::format("session {} of {} and session {} of {} are the same (participant "
+                      "{}, started {}): one log has copies of the other's sessions. Give "
+                      "each session once",
+                      other_id, other, id, database, header.participant, header.started_utc),
+          ExitCode::usage);
+    }
+  }
+}
+}  // namespace
+
 LogIntegrity integrity_of(const std::vector<std::string>& databases,
                           const std::vector<std::int64_t>& session_ids, bool unverified) {
-  for (const std::string& database : databases)
-    if (LogReader(database).session_ids().empty())
-      throw Error(fmt::format("{} holds no session yet", database));
   refuse_copies(databases);
   if (unverified) return {false, "NOT VERIFIED"};
   ProgressBar bar("verifying");

@@ -278,8 +278,11 @@ LoggedSessions::LoggedSessions(const std::vector<std::string>& databases,
   if (databases.size() > 1 && !session_ids.empty())
     throw Error("--session names sessions of a single log; give one --db", ExitCode::usage);
   const std::set named(session_ids.begin(), session_ids.end());
+  std::set<std::string> files;
   const std::vector<std::string> labs = lab_names(databases);
   for (const std::string& database : databases) {
+    if (!files.insert(std::filesystem::weakly_canonical(database).string()).second)
+      throw Error(fmt::format("{} is given twice", database), ExitCode::usage);
     OneLog& log = logs_.emplace_back(
         OneLog{database, labs.at(logs_.size()), LogReader(database), {named.begin(), named.end()}});
     if (log.session_ids.empty()) log.session_ids = log.reader.session_ids();

@@ -151,7 +151,7 @@ struct Dataset {
 class LoggedSessions {
  public:
   /// @param session_ids which, of a single log; empty: all
-  /// @throws Error when a file can't be read or has no such session; (usage) when
+  /// @throws Error when a file can't be read, is given twice or has no such session; (usage) when
   ///   sessions of several logs are named
   LoggedSessions(const std::vector<std::string>& databases,
                  const std::vector<std::int64_t>& session_ids);

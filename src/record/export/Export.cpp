@@ -1,16 +1,10 @@
 #include "record/export/Export.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <filesystem>
 #include <map>
-#include <tuple>
 
-#include "base/Error.h"
 #include "base/files/Csv.h"
 #include "record/export/ExportFolder.h"
-#include "record/reader/LogReader.h"
 
 namespace heft {
 
@@ -39,32 +33,6 @@ void write_dictionary(const ExportSource& source, const std::vector<ExportTable>
   folder.wrote("dictionary.csv", n);
 }
 }  // namespace
-
-void refuse_copies(const std::vector<std::string>& logs) {
-  if (logs.size() < 2) return;
-  using Key = std::tuple<std::string, std::string, std::uint64_t, std::string>;
-  std::map<Key, std::pair<std::string, std::int64_t>> found;
-  std::error_code unknown;  // reading the file reports the reason
-  for (auto log = logs.begin(); log != logs.end(); ++log) {
-    if (std::any_of(logs.begin(), log, [&](const std::string& other) {
-          return std::filesystem::equivalent(other, *log, unknown);
-        }))
-      throw Error(fmt::format("{} is given twice", *log), ExitCode::usage);
-    for (const auto& [id, header, state] : LogReader(*log).sessions()) {
-      if (state == SessionState::withdrawn) continue;
-      const auto [at, is_new] = found.try_emplace(
-          {header.participant, header.started_utc, header.seed, header.protocol_sha256}, *log, id);
-      const auto& [other, other_id] = at->second;
-      if (!is_new && other != *log)
-        throw Error(
-            fmt::format("session {} of {} and session {} of {} are the same (participant {}, "
-                        "started {}): one log has copies of the other's sessions. Give each "
-                        "session once",
-                        other_id, other, id, *log, header.participant, header.started_utc),
-            ExitCode::usage);
-    }
-  }
-}
 
 std::vector<std::string> lab_names(const std::vector<std::string>& logs) {
   std::vector<std::string> names;

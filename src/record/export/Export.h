@@ -31,10 +31,6 @@ inline std::string person_name(const std::string& log, const std::string& partic
   return log + ": " + participant;
 }
 
-/// Refuses a log that is given twice, and a session that is in two of the logs: their figures would
-/// count twice. @throws Error (usage)
-void refuse_copies(const std::vector<std::string>& logs);
-
 /// The lab that each log is from: the log's file name without folder and extension, or the log as
 /// given where another has that name too.
 std::vector<std::string> lab_names(const std::vector<std::string>& logs);
@@ -58,7 +54,7 @@ struct ExportRequest {
 /// text that a spreadsheet would read as a formula (starting with = + - @ or a control character)
 /// or that starts with '. During the export the folder holds export_unfinished.txt.
 /// @param progress called with the fraction of rows done, 0...1
-/// @throws Error if a log cannot be read, or the folder is not empty or cannot be
+/// @throws Error if a log cannot be read or is given twice, or the folder is not empty or cannot be
 ///   written
 std::vector<ExportedFile> export_logs(const ExportRequest& request,
                                       const std::function<void(double)>& progress);

@@ -63,8 +63,11 @@ std::unique_ptr<SQLite::Database> renumbered_copy(SQLite::Database& log) {
 
 ExportSource::ExportSource(const std::vector<std::string>& logs, std::optional<std::string> key)
     : key_(std::move(key)) {
+  std::set<std::string> files;
   ParticipantColumns participants;
   for (const std::string& name : logs) {
+    if (!files.insert(resolved_path(name)).second)
+      throw Error(fmt::format("{} is given twice", name), ExitCode::usage);
     OpenLog log{name, "", open_for_reading(name)};
     if (!holds_log(*log.database, name)) continue;
     if (key_) log.database = renumbered_copy(*log.database);

@@ -22,7 +22,7 @@ using ExportCells = std::vector<ExportCell>;
 class ExportSource {
  public:
   /// @param key of the pseudonyms; none: no pseudonyms
-  /// @throws Error if a log cannot be read
+  /// @throws Error if a log cannot be read or is given twice
   ExportSource(const std::vector<std::string>& logs, std::optional<std::string> key);
   ~ExportSource();
   ExportSource(const ExportSource&) = delete;
